@@ -355,7 +355,7 @@ TEST(derivatives)
 
 TEST(what_is_refused)
 {
-#define ONE_MATERIAL "half-planes of one elastic material only"
+#define ONE_MATERIAL "it needs half-planes of one elastic material"
     static const struct {
         const char *line, *words;
     } rows[] = {

@@ -107,12 +107,12 @@ static const struct {
     {"--accuracy 0.1 --trace", 64, "--trace: not together with error bars"},
     {"--support halfplane --load 9 --contact-elements 2100 --fclib f.hdf5", 64,
      "--fclib: 2100 elements are too many for a dense W"},
-    {"--support halfplane --hub-ratio 0.5", 64, "--hub-ratio: of the support hub only"},
-    {"--hub-ratio 0.5", 64, "--hub-ratio: of the support hub only"},
-    {"--support hub --datum 5", 64, "--datum: of the support halfplane only"},
-    {"--support hub --arc 5", 64, "--arc: of the support arc only"},
+    {"--support halfplane --hub-ratio 0.5", 64, "--hub-ratio: it needs the support hub"},
+    {"--hub-ratio 0.5", 64, "--hub-ratio: it needs the support hub"},
+    {"--support hub --datum 5", 64, "--datum: it needs the support halfplane"},
+    {"--support hub --arc 5", 64, "--arc: it needs the support arc"},
     {"--similar --support halfplane --support-b hub --datum-b 5", 64,
-     "--datum-b: of the support halfplane only"},
+     "--datum-b: it needs the support halfplane"},
     {"--young 1e300", 64, "--young: expected a size of 1e-100 to 1e+100"},
     {"--radius 1e-300", 64, "radius: expected a size of 1e-100 to 1e+100"},
     {"--load 1e300", 64, "load: expected a size of 1e-100 to 1e+100"},
@@ -126,7 +126,7 @@ static const struct {
     {"--slip-operator second", 64, "rollbem: --slip-operator: second is only for steady rolling"},
     {"wear --mu-heat 0.1,20,300", 64, "--mu-heat: wear has no temperatures"},
     {"--mu-heat 0.1,20,300", 64, "--mu-heat: needs temperatures, add --conductivity"},
-    {"--free-axle", 64, "rollbem: --free-axle: of steady rolling only"},
+    {"--free-axle", 64, "rollbem: --free-axle: it needs steady rolling"},
     {"--support halfplane --load 100 --young-b 1000 --layer-thickness-b 0.01 --poisson-b "
      "0.495 --mesh uniform --contact-elements 20",
      64, "--layer-thickness-b: with nu = 0.495 the elements"},
@@ -767,10 +767,10 @@ TEST(bad_histories_are_refused)
     check_refused("--history history.txt", 65, "history.txt:3:");
     check_refused("--history nowhere.txt", 66, "nowhere.txt");
     check_refused("--formulation steady --history history.txt", 64, "no history");
-    check_refused("--distance 2", 64, "--distance: of transient rolling only");
+    check_refused("--distance 2", 64, "--distance: it needs transient rolling");
     check_refused("--formulation transient --creep 1e-3", 64, "--distance or --history");
     write_file("case.ini", "steps = 5\n");
-    check_refused("case.ini", 65, "case.ini:1: steps: of transient rolling only");
+    check_refused("case.ini", 65, "case.ini:1: steps: it needs transient rolling");
 }
 
 /* The steps that were finished are there. */

@@ -405,7 +405,7 @@ TEST(bad_rows_are_named_by_their_line)
     write_file("gap.txt", "# x gap\n-1 -.5\n0 0\n1 -.5\n");
     check_refused("--load 10 --gap gap.txt", 65, "gap.txt:4: the smallest gap, -0.5");
     check_refused("--load 10 --gap-smoothing 1e-3", 64,
-                  "--gap-smoothing: of a gap from a file only");
+                  "--gap-smoothing: it needs a gap from a file");
     check_refused("--load 10 --gap gap.txt --gap-smoothing -1", 64, "--gap-smoothing");
 }
 

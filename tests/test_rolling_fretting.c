@@ -217,7 +217,7 @@ TEST(what_has_no_cycle_is_refused)
         {"similar formulation transient", {.n = 1, .force_ratio = open}, "what rolls has no cycle"},
         {"similar relaxation-time 1 relaxation-ratio 1",
          {.n = 4, .force_ratio = reverses},
-         "elastic bodies only"},
+         "it needs elastic bodies"},
         {"period 20", {.n = 4, .force_ratio = reverses}, "without --period"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_rolling_case rc = rolling_case(STEEL "contact-elements 30 fretting");

@@ -269,19 +269,19 @@ TEST(what_is_refused)
         const char *line, *words;
     } rows[] = {
         {SOFT "--gap parabola --radius 100 --load 0.03 --tilt 0.01 --formulation steady",
-         "of bodies at rest only"},
-        {"--load 0.03 --tilt 0.01", "of elastic half-planes only"},
+         "it needs bodies at rest"},
+        {"--load 0.03 --tilt 0.01", "it needs elastic half-planes"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --tilt 0.01 --moment 3", "--moment"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.1 --zone 3", "it topples"},
         {SQUARE "--moment 1.01", "M/P = 1.01 mm, and A touches between -1 and 1 mm at most: it "
                                  "topples"},
         {SQUARE "--zone 1", "the punch is the zone"},
-        {SQUARE "--formulation steady", "of bodies at rest, in one step"},
+        {SQUARE "--formulation steady", "it needs bodies at rest, in one step"},
         {SQUARE "--increments 2", "equal elements"},
         {SQUARE "--mesh uniform", "a punch that ends there has --mesh punch"},
         {"--support halfplane --load 1 --mesh punch", "add --gap FILE"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --increments 3",
-         "of one state only"},
+         "it needs a single state"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --error", "no error bars"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --derivatives",
          "give the tilt that it makes"}};

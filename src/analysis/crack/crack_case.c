@@ -180,7 +180,7 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
                          "a rigid body B is not changed by its crack; make it "
                          "elastic (--similar, --young-b)");
     if (k->coupled && k->fluid != RB_CRACK_DRY)
-        return rb_refuse(why, "coupled", "of a crack without fluid");
+        return rb_refuse(why, "coupled", "it needs a crack without fluid");
     s = rb_case_check_growth(k, why);
     if (s != RB_OK)
         return s;

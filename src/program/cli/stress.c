@@ -139,7 +139,7 @@ static cli_exit check(cli_case_run *run)
         return cli_case_refused(run->words, s, &why);
     if (st->tractions && !rb_rolling_can(&run->c->rc, RB_BODY_FLAT))
         return cli_case_refuse(run->words, "tractions",
-                               "of half-planes and layers; a wheel is not flat: "
+                               "it needs a half-plane, or layers on one; a wheel is not flat: "
                                "take --support halfplane");
     if (st->tractions && run->o.cite)
         return cli_case_refuse(run->words, "cite",

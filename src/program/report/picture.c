@@ -316,7 +316,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     let_title(out, v);
     let_tractions(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
-    let_axis(out, "slip", &v->slip, 5, s->formulation == RB_STATIC ? "velocity / V" : "slip", "");
+    let_axis(out, "slip", &v->slip, 5, s->formulation == RB_STATIC ? "slip by (12)" : "slip", "");
     if (s->temperature) {
         let_axis(out, "heat", &v->heat, 3, "T", "K");
         fputs("$names << EOD\nbody x T left\n", out);

@@ -600,7 +600,7 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     /* A layer or a cover. */
     if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
         return rb_refuse(
-            why, "conductivity,conductivity-b", "of homogeneous elastic bodies; %s",
+            why, "conductivity,conductivity-b", "it needs homogeneous elastic bodies; %s",
             (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
              (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
                 ? "the flash temperature is computed for homogeneous bodies only, and a "
@@ -669,7 +669,7 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
                          "it excludes shift, creep, creep-ratio, force and "
                          "force-ratio");
     if (rc->free_axle && rc->formulation != RB_STEADY)
-        return rb_refuse(why, "free-axle", "of steady rolling only");
+        return rb_refuse(why, "free-axle", "it needs steady rolling");
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
         return rb_refuse(why, "free-axle", "only friction turns it, expected mu > 0");
     if (rc->fretting && rc->formulation != RB_STATIC)
@@ -678,7 +678,8 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (rc->fretting && rb_rolling_largest_mu(rc) == 0.0)
         return rb_refuse(why, "fretting", "without friction nothing frets; expected mu > 0");
     if (rc->fretting && rb_rolling_relaxes(rc))
-        return rb_refuse(why, "fretting", "of elastic bodies only; leave out the relaxation times");
+        return rb_refuse(why, "fretting",
+                         "it needs elastic bodies; leave out the relaxation times");
     /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
     if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
         return rb_refuse(why, "force-ratio", "Q/(mu P) = %g: friction carries at most 1",
@@ -784,7 +785,7 @@ static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->increments > 1 && rc->formulation == RB_STEADY)
         return rb_refuse(why, "increments",
-                         "of static contact and of the start of a transient; "
+                         "static contact and the start of a transient have increments; "
                          "steady rolling does not depend on its beginning");
     return RB_OK;
 }
@@ -798,7 +799,7 @@ static rb_status check_smooth_base(const rb_rolling_case *rc, rb_message *why)
         return RB_OK;
     if (rc->formulation == RB_TRANSIENT || rb_rolling_has_steps(rc))
         return rb_refuse(why, name,
-                         "smooth: of steady rolling and of bodies at rest in one step; "
+                         "smooth: it needs steady rolling, or bodies at rest in one step; "
                          "nothing holds the layer from step to step");
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
         !rb_rolling_force_is_given(rc))
@@ -820,10 +821,11 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
                          rc->contact_elements);
     if (rc->mesh == RB_MESH_PUNCH) {
         if (rc->formulation != RB_STATIC || rb_rolling_has_steps(rc))
-            return rb_refuse(why, "mesh", "punch: of bodies at rest, in one step");
+            return rb_refuse(why, "mesh", "punch: it needs bodies at rest, in one step");
         if (rc->gap != RB_GAP_TABLE || !rb_rolling_can(rc, RB_BODY_FLAT))
-            return rb_refuse(why, "mesh",
-                             "punch: of half-planes whose punch is a table, add --gap FILE");
+            return rb_refuse(
+                why, "mesh",
+                "punch: it needs half-planes and a table of the punch; add --gap FILE");
         if (rc->zone > 0.0)
             return rb_refuse(why, "mesh,zone", "the punch is the zone; leave --zone out");
     }
@@ -861,10 +863,11 @@ static rb_status check_bulk(const rb_rolling_case *rc, rb_message *why)
         if (stress[k] != 0.0 &&
             !rb_rolling_body_can(k ? &rc->b : &rc->a,
                                  RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
-            return rb_refuse(why, k ? "bulk-stress-b" : "bulk-stress",
-                             "of half-planes of one elastic material only (--support%s halfplane), "
-                             "without layer and relaxation",
-                             k ? "-b" : "");
+            return rb_refuse(
+                why, k ? "bulk-stress-b" : "bulk-stress",
+                "it needs half-planes of one elastic material (--support%s halfplane), "
+                "without layer and relaxation",
+                k ? "-b" : "");
     return RB_OK;
 }
 
@@ -879,12 +882,13 @@ static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
     if (rc->tilt != 0.0 && !isnan(rc->moment))
         return rb_refuse(why, "tilt,moment", "excludes moment");
     if (rc->formulation != RB_STATIC)
-        return rb_refuse(why, which,
-                         "of bodies at rest only (--formulation static); what rolls turns, and its "
-                         "moment is the result resistance_moment");
+        return rb_refuse(
+            why, which,
+            "it needs bodies at rest (--formulation static); what rolls turns, and its "
+            "moment is the result resistance_moment");
     if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_ELASTIC))
         return rb_refuse(why, which,
-                         "of elastic half-planes only (--support halfplane), without relaxation");
+                         "it needs elastic half-planes (--support halfplane), without relaxation");
     return RB_OK;
 }
 
@@ -987,11 +991,11 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
         return s;
     if (rc->formulation != RB_STATIC)
         return rb_refuse(why, "period",
-                         "of bodies at rest only (--formulation static); what rolls over "
+                         "it needs bodies at rest (--formulation static); what rolls over "
                          "waves is never steady");
     if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_refuse(why, "period",
-                         "of half-planes of one elastic material only (--support "
+                         "it needs half-planes of one elastic material (--support "
                          "halfplane), without layer and relaxation");
     if (rc->gap == RB_GAP_TABLE && !rc->profile)
         return RB_OK; /* check_gap says so */
@@ -1014,7 +1018,7 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
 {
     if (!rb_rolling_has_ellipse(rc) && rc->strips > 0)
         return rb_refuse(why, "strips",
-                         "of an ellipse under a load of all of it, add --wheel-load");
+                         "it needs an ellipse under a load of all of it; add --wheel-load");
     if (!rb_rolling_has_ellipse(rc))
         return isinf(rc->transverse_radius) && isinf(rc->transverse_radius_b)
                    ? RB_OK

@@ -139,7 +139,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     const int is_punch = resolved->rc.mesh == RB_MESH_PUNCH;
     rb_rolling_table gap;
     if (resolved->rc.gap != RB_GAP_TABLE)
-        return rb_case_refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
+        return rb_case_refuse_given(c, "gap-smoothing", "it needs a gap from a file", why);
     if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise ||
         c->profile.is_punch != is_punch)
         free_profile(&c->profile);

@@ -567,7 +567,7 @@ static rb_status check_parameter(const rb_case *c, int is_b, const rb_rolling_bo
     for (const rb_choice *support = rb_rolling_supports; support->name; support++)
         if (support->value == (int)rb_rolling_kind_support(kind))
             word = support->name;
-    snprintf(reason, sizeof reason, "of the support %s only", word);
+    snprintf(reason, sizeof reason, "it needs the support %s", word);
     return rb_case_given(c, name) > 0 && support_by == RB_GIVEN_ARGUMENT
                ? RB_OK
                : rb_case_refuse_given(c, name, reason, why);
@@ -782,10 +782,10 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
               history = resolved->history_file != NULL;
     const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
     const rule rules[] = {
-        {!transient, "distance", "of transient rolling only"},
+        {!transient, "distance", "it needs transient rolling"},
         {transient && history, "distance", "the history says how far"},
         /* of a crack: positions of the contact */
-        {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
+        {!transient && c->purpose != RB_CASE_CRACK, "steps", "it needs transient rolling"},
         {!transient, "irregularity",
          "only for transient rolling, in which it moves through the contact"},
         {steady, "history", "steady rolling has no history"},
@@ -952,7 +952,7 @@ static rb_status find_tilt(rb_case *c, rb_message *why)
 
     if (c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved))
         return rb_refuse(why, "moment",
-                         "of one state only; with steps give --tilt, or a column tilt of the "
+                         "it needs a single state; with steps give --tilt, or a column tilt of the "
                          "history");
     if (c->resolved.error || c->resolved.accuracy > 0.0)
         return rb_refuse(why, "moment", "has no error bars, those of --tilt are known");
