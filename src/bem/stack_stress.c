@@ -26,6 +26,19 @@ typedef struct {
     double re[4], im[4];
 } state;
 
+/* sxx, syy and X of the waves of a panel at a depth, real parts and then imaginary ones. */
+typedef struct {
+    double part[2][3][GAUSS];
+} amplitudes;
+
+/* The last depths that were asked for: a search for a maximum comes back to three of them. */
+enum { KEPT = 4 };
+typedef struct {
+    double depth;
+    int n, row; /* panels that do not fade, row of the depth; n = 0: none */
+    amplitudes *panel;
+} layer_of_waves;
+
 struct rb_bem_stack_field {
     rb_bem_stack_rows *rows;
     rb_bem_edge_load load; /* of nodes; what it borrows stays the caller's */
@@ -34,12 +47,23 @@ struct rb_bem_stack_field {
     double *k;             /* n, increasing; owned, as what follows */
     state *top;            /* n: of the half-plane of the first layer under the same tractions */
     state *at;             /* n for each row */
+    layer_of_waves kept[KEPT];
+    int oldest; /* of them */
 };
+
+static void forget_amplitudes(rb_bem_stack_field *f)
+{
+    for (int k = 0; k < KEPT; k++) {
+        free(f->kept[k].panel);
+        f->kept[k] = (layer_of_waves){.panel = NULL};
+    }
+}
 
 void rb_bem_stack_field_free(rb_bem_stack_field *f)
 {
     if (!f)
         return;
+    forget_amplitudes(f);
     rb_bem_stack_rows_free(f->rows);
     free(f->k);
     free(f->top);
@@ -128,6 +152,7 @@ static rb_status make_waves(rb_bem_stack_field *f, double reach, rb_message *why
     double *end = rb_arena_doubles(&scratch, (size_t)panels + 1, 1),
            *weight = rb_arena_doubles(&scratch, (size_t)n, 1);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
+    forget_amplitudes(f);
     free(f->k);
     free(f->top);
     free(f->at);
@@ -204,11 +229,6 @@ static void sink(const rb_bem_stack_row *row, double eta, double fade, const dou
     }
 }
 
-/* sxx, syy and X of the waves of a panel at a depth, real parts and then imaginary ones. */
-typedef struct {
-    double part[2][3][GAUSS];
-} amplitudes;
-
 /* Of wave g of the field, in row j, `below` its upper face. */
 static void set_amplitude(const rb_bem_stack_field *f, int j, int g, double below, amplitudes *w)
 {
@@ -257,6 +277,23 @@ static int set_panel_amplitudes(const rb_bem_stack_field *f, double depth, ampli
     for (int g = 0; g < n * GAUSS; g++)
         set_amplitude(f, j, g, depth - top, &panel[g / GAUSS]);
     return n;
+}
+
+/* The same, of one of the last depths without computing; NULL: out of memory. */
+static const layer_of_waves *amplitudes_at(rb_bem_stack_field *f, double depth)
+{
+    for (int k = 0; k < KEPT; k++)
+        if (f->kept[k].panel && f->kept[k].depth == depth)
+            return &f->kept[k];
+    layer_of_waves *next = &f->kept[f->oldest];
+    f->oldest = (f->oldest + 1) % KEPT;
+    if (!next->panel)
+        next->panel = malloc((size_t)(f->n / GAUSS) * sizeof *next->panel);
+    if (!next->panel)
+        return NULL;
+    next->depth = depth;
+    next->n = set_panel_amplitudes(f, depth, next->panel, &next->row);
+    return next;
 }
 
 /* From panel to panel of one width exp(ikx) changes by a factor, and is computed anew after so
@@ -313,25 +350,22 @@ rb_status rb_bem_stack_field_add(rb_bem_stack_field *f, rb_bem_points points, do
     const rb_status s = high - low > f->reach ? make_waves(f, high - low, why) : RB_OK;
     if (s != RB_OK)
         return s;
-    amplitudes *panel = malloc((size_t)(f->n / GAUSS) * sizeof *panel);
-    if (!panel)
-        return RB_ENOMEM;
     /* points of one depth have the same waves */
     for (int first = 0, next; first < points.n; first = next) {
         const double depth = points.xy[2 * first + 1];
-        int row;
+        const layer_of_waves *waves = amplitudes_at(f, depth);
+        if (!waves)
+            return RB_ENOMEM;
         for (next = first; next < points.n && points.xy[2 * next + 1] == depth;)
             next++;
-        const int n = set_panel_amplitudes(f, depth, panel, &row);
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
-    schedule(static) if ((double)n * GAUSS * (next - first) > rb_pairs_for_threads)
+    schedule(static) if ((double)waves->n * GAUSS * (next - first) > rb_pairs_for_threads)
         for (int i = first; i < next; i++) {
-            for (int c = 0; c < 3 && row > 0; c++)
+            for (int c = 0; c < 3 && waves->row > 0; c++)
                 stress[3 * i + c] = 0.0;
             if (!rb_interrupted_in_loop(&stop))
-                add_waves(f, n, panel, points.xy[2 * i], stress + 3 * i);
+                add_waves(f, waves->n, waves->panel, points.xy[2 * i], stress + 3 * i);
         }
     }
-    free(panel);
     return stop ? RB_INTERRUPTED : RB_OK;
 }
