@@ -52,7 +52,7 @@ const rb_rolling_solution *rb_verify_solve(rb_verify *v, const rb_rolling_case *
     if (status != RB_OK) {
         s->normal_load = s->force_ratio = s->max_pressure = s->half_width = NAN;
         s->approach = s->creepage = s->stick_from = s->stick_to = s->dissipation = NAN;
-        s->max_temperature = NAN;
+        s->max_temperature = s->ellipse_force = NAN;
     }
     return s;
 }

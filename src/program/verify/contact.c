@@ -170,6 +170,13 @@ static void ellipse(rb_verify *v)
     rb_verify_relative(v, s->ellipse.b, 5.387172, 1e-6, "Hertz's ellipse of wheel and rail: b");
     rb_verify_relative(v, s->half_width, 7.161676, 1e-3, "its strip: half-width");
     rb_verify_relative(v, s->max_pressure, 1237.559, 1e-3, "its strip: largest pressure");
+    rc.mu = 0.3;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.5;
+    rc.strips = 9;
+    s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, s->ellipse_force / (rc.mu * rc.wheel_load), -0.811119584, 4.4e-4,
+                       "its 9 strips, s = %g: Q/(mu W)", rc.creep_ratio);
 }
 
 /* Westergaard's wave, half flattened and flat (theory-rolling.md P1). */
