@@ -351,9 +351,7 @@ static const conflict conflicts[] = {
     {{"period=given", "regime=steady|transient*|steps"}, "it needs bodies at rest"},
     {{"period=given", "support!halfplane"}, "it needs half-planes of one elastic material"},
     {{"period=given", "body-b=hub|arc"}, "it needs half-planes of one elastic material"},
-    {{"period=given", "surface!plain", "body-b!rigid"},
-     "it needs half-planes of one elastic material"},
-    {{"period=given", "surface!plain", "body-b=rigid"}, NULL},
+    {{"period=given", "surface=relaxing|b-relaxing|cover*|b-cover"}, NULL},
     {{"period=given", "mesh=fitted|aligned"}, "equal elements only"},
     {{"period=given", "mesh=punch"}, NULL}, /* a wave is no table */
     {{"period=given", "normal=half-width"}, "Hertz's is that of one contact"},

@@ -127,6 +127,77 @@ TEST(a_long_period)
                   "%s", names[k]);
 }
 
+/* On a layer of the thickness d a wave is flat from p* over L_N(2 pi d/L) on; by another program of
+ * 512 elements, nu = 0.3, E* = 1000: mean pressures over that, 2a/L, p0 over that, delta/D. */
+TEST(waves_on_layers)
+{
+    static const struct {
+        const char *base;
+        double d, LN, part, share, pressure, approach;
+    } rows[] = {{"bonded", 0.1, 0.260660, 0.3, 0.461, 0.96115, 0.95808},
+                {"bonded", 0.1, 0.260660, 0.7, 0.688, 1.63145, 1.62073},
+                {"bonded", 0.3, 0.729991, 0.3, NAN, 1.02388, 0.97829},
+                {"bonded", 0.3, 0.729991, 0.7, NAN, 1.65237, 1.68046},
+                {"smooth", 0.1, 0.313152, 0.3, NAN, 0.96454, 0.96378},
+                {"smooth", 0.1, 0.313152, 0.7, NAN, 1.63316, 1.63519}};
+    const double flat = acos(-1.0); /* p* of D = 1e-3 */
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        if (!is_in_turn((int)k, 3))
+            continue;
+        held_json *root = run_jsonf("--support halfplane --gap wave --period 1 --amplitude 1e-3 "
+                                    "--young 910 --poisson 0.3 --mu 0 --layer-thickness %g "
+                                    "--layer-base %s --load %.15g --contact-elements 512",
+                                    rows[k].d, rows[k].base, rows[k].part * flat / rows[k].LN);
+        CHECK_REL(of_summary(root, "max_pressure"), rows[k].pressure * flat / rows[k].LN, 3e-5,
+                  "p0 of %zu", k);
+        CHECK_ABS(of_summary(root, "approach") * 1e3, rows[k].approach, 1e-5, "delta of %zu", k);
+        if (!isnan(rows[k].share))
+            CHECK_ABS(of_summary(root, "contact_share"), rows[k].share, 2.0 / 512.0, "2a/L of %zu",
+                      k);
+    }
+}
+
+/* Layers on rigid bases do not feel neighbours from some thicknesses on, pressure, friction and
+ * coupling alike; a base of the layer's material makes none of them a layer; equal tractions
+ * compress and shear a layer on a rigid base. */
+TEST(rows_of_contacts_on_layers)
+{
+#define ROW                                                                                        \
+    "--support halfplane --gap parabola --radius 100 --young 1000 --poisson 0.3 --mu 0.3 "         \
+    "--formulation static --mesh uniform --zone 1.3 --contact-elements 60 --load 9 "               \
+    "--force-ratio 0.5 "
+    static const char *const layers[] = {"--layer-thickness 1",
+                                         "--layer-thickness 1 --young-b 2000 --poisson-b 0.4 "
+                                         "--layer-thickness-b 2"};
+    static const char *const columns[] = {"p_MPa", "q_MPa", "un_mm", "ut_mm"};
+    for (int k = 0; k < 3; k++) {
+        const int is_base = k > 1;
+        held_json *one = is_base ? run_json(ROW "--period 20") : run_jsonf(ROW "%s", layers[k]);
+        held_json *many =
+            is_base ? run_json(ROW "--layer-thickness 1 --base-young 1000 --base-poisson 0.3 "
+                                   "--period 20")
+                    : run_jsonf(ROW "%s --period 80", layers[k]);
+        const json_t *a = json_object_get(one, "table"), *b = json_object_get(many, "table");
+        for (size_t c = 0; c < 4; c++)
+            for (size_t i = 0; i < 60; i++)
+                CHECK_ABS(entry(b, columns[c], i), entry(a, columns[c], i), c < 2 ? 1e-9 : 1e-12,
+                          "%s of %zu, row %d", columns[c], i, k);
+    }
+    /* all of it pressed: (1 + nu)(1 - 2 nu)/((1 - nu) E) d p and d q/G besides the waves */
+    held_json *flat = run_json("--support halfplane --gap wave --period 1 --amplitude 1e-4 --young "
+                               "1000 --poisson 0.3 --mu 0.3 --layer-thickness 0.2 --load 10 "
+                               "--force 1 --contact-elements 64");
+    CHECK_REL(of_summary(flat, "contact_share"), 1.0, 1e-12, "all of it");
+    CHECK_REL(of_summary(flat, "approach"), 1e-4 + 0.2 * 10.0 * 1.3 * 0.4 / (0.7 * 1000.0), 1e-6,
+              "compressed");
+    CHECK_REL(of_summary(flat, "tangential_shift"), -0.2 * 1.0 / (1000.0 / 2.6), 1e-6, "sheared");
+    assert_int_equal(rollbem("--support halfplane --gap wave --period 1 --amplitude 1e-4 --young "
+                             "1000 --poisson 0.3 --mu 0.3 --layer-thickness 0.2 --approach 1e-3 "
+                             "--shift 1e-5 --contact-elements 40 --json > flat.json"),
+                     0);
+    assert_int_equal(rollbem("check flat.json"), 0);
+}
+
 static void write_waves(const char *name, double from, double to, double phase)
 {
     FILE *file = NOT_NULL(fopen(name, "w"));
@@ -218,8 +289,10 @@ TEST(what_is_refused)
         {WAVE "--approach 0.01", "nothing is open, and only --load tells more"},
         {WAVE "--half-width 0.1", "half-width: not with a period"},
         {WAVE "--load 1 --formulation steady", "period: it needs bodies at rest"},
-        {WAVE "--load 1 --layer-thickness 1",
-         "period: it needs half-planes of one elastic material"},
+        {"--support halfplane --gap wave --period 1 --amplitude 0.01 --load 1 --layers stack.txt",
+         "period: it needs half-planes of one elastic material, or"},
+        {WAVE "--load 1e-3 --layer-thickness 9e-4",
+         "layer-thickness: with a period: a layer of a thousandth"},
         {WAVE "--load 1 --datum 1", "datum: not with a period"},
         {WAVE "--load 1 --tilt 0.1", "tilt: not with a period"},
         {WAVE "--load 1 --bulk-stress 0.1", "bulk-stress: not with a period"},
@@ -229,6 +302,7 @@ TEST(what_is_refused)
         {SOFT "--radius 10 --period 2 --load 1", "needs --gap parabola, wave"},
         {SOFT "--gap open.txt --period 2 --load 1", "must end as it begins"},
         {SOFT "--gap open.txt --period 1 --load 1", "must be one period long"}};
+    write_file("stack.txt", "0.1 1000 0.3\n0.2 500 0.3\n");
     write_file("open.txt", "x gap\n-1 1\n-0.5 0.25\n0 0\n0.5 0.25\n1 1.5\n");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
         check_refused(rows[k].line, 64, rows[k].why);

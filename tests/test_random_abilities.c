@@ -137,6 +137,10 @@ TEST(waves)
                    "--contact-elements %d",
                    period, amplitude, random_log(&c, 0.02, is_alike ? 1.0 : 0.3),
                    part * full * period, n);
+        if (!is_alike && random_choice(&c, 2))
+            random_add(&c, " --layer-thickness %.15g --layer-base %s",
+                       period * random_log(&c, 0.05, 0.5),
+                       random_choice(&c, 2) ? "smooth" : "bonded");
         snprintf(line, sizeof line, "%s --force-ratio %.15g", c.line, ratio);
         held_json *root = judged("", line, 1);
         snprintf(line, sizeof line, "%s --force-ratio %.15g", c.line, -ratio);

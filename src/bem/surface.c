@@ -49,8 +49,13 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
         return s;
     if (!(body->period >= 0.0 && isfinite(body->period)))
         return rb_fail(why, RB_EINVAL, "period = %g: expected >= 0", body->period);
-    if (body->period > 0.0 && (body->thickness > 0.0 || body->terms > 0))
-        return rb_fail(why, RB_EINVAL, "period: of an elastic half-plane only");
+    if (body->period > 0.0 && (stack || body->terms > 0))
+        return rb_fail(why, RB_EINVAL,
+                       "period: of an elastic half-plane or one elastic layer only");
+    if (body->period > 0.0 && body->thickness > 0.0 && body->thickness < 1e-3 * body->period)
+        return rb_fail(why, RB_EINVAL,
+                       "period: expected a layer of a thousandth of it or more, got %g",
+                       body->thickness / body->period);
     const int has_datum = body->period == 0.0 && (body->thickness == 0.0 || body->elastic_base);
     if (has_datum && !(body->datum > 0.0 && isfinite(body->datum)))
         return rb_fail(why, RB_EINVAL, "datum = %g: expected a depth > 0", body->datum);

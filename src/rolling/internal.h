@@ -42,6 +42,10 @@ void rb_rolling_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, do
  * rb_rolling_solve_strips. */
 void rb_rolling_set_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
                                    double *kalker);
+/* 1: a layer on a rigid base gives way under equal pressure, or under equal friction, everywhere
+ * (P1). */
+int rb_rolling_mean_compresses(const rb_rolling_case *rc);
+int rb_rolling_mean_shears(const rb_rolling_case *rc);
 /* 1: a tilt or a moment is given; and the tilt (U3). */
 int rb_rolling_is_tilted(const rb_rolling_case *rc);
 double rb_rolling_tilt(const rb_rolling_case *rc);

@@ -422,7 +422,8 @@ static int suits_transforms(const rb_rolling_case *rc)
 {
     return (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
            (!rb_rolling_mesh_is_graded(rc) || suits_fitted_products(rc)) &&
-           is_transformed(rc, &rc->a) && (!rc->elastic_b || is_transformed(rc, &rc->b));
+           is_transformed(rc, &rc->a) && (!rc->elastic_b || is_transformed(rc, &rc->b)) &&
+           !(rc->period > 0.0 && (rc->a.layer > 0.0 || (rc->elastic_b && rc->b.layer > 0.0)));
 }
 
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
@@ -892,6 +893,26 @@ static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+static int has_rigid_base(const rb_rolling_body *body)
+{
+    return body->layer > 0.0 && body->base_young == 0.0;
+}
+
+int rb_rolling_mean_compresses(const rb_rolling_case *rc)
+{
+    return has_rigid_base(&rc->a) || (rc->elastic_b && has_rigid_base(&rc->b));
+}
+
+static int holds_friction(const rb_rolling_body *body)
+{
+    return has_rigid_base(body) && body->layer_base != RB_BASE_SMOOTH;
+}
+
+int rb_rolling_mean_shears(const rb_rolling_case *rc)
+{
+    return holds_friction(&rc->a) || (rc->elastic_b && holds_friction(&rc->b));
+}
+
 /* The mean of the undeformed gap over a period: the approach at which nothing stays open. */
 static double mean_gap(const rb_rolling_case *rc)
 {
@@ -993,17 +1014,26 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
         return rb_refuse(why, "period",
                          "it needs bodies at rest (--formulation static); what rolls over "
                          "waves is never steady");
-    if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
+    if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_ELASTIC) || rc->a.stack ||
+        (rc->elastic_b && rc->b.stack))
         return rb_refuse(why, "period",
-                         "it needs half-planes of one elastic material (--support "
-                         "halfplane), without layer and relaxation");
+                         "it needs half-planes of one elastic material, or one layer of it "
+                         "(--support halfplane), without relaxation");
+    for (int b = 0; b <= rc->elastic_b; b++) {
+        const double layer = b ? rc->b.layer : rc->a.layer;
+        if (layer > 0.0 && layer < 1e-3 * rc->period)
+            return rb_refuse(why, b ? "layer-thickness-b" : "layer-thickness",
+                             "with a period: a layer of a thousandth of it or more, got %g mm",
+                             layer);
+    }
     if (rc->gap == RB_GAP_TABLE && !rc->profile)
         return RB_OK; /* check_gap says so */
     s = check_alone(rc, why);
     if (s == RB_OK)
         s = check_closed(rc, why);
     const double approach = s == RB_OK ? rb_rolling_derive(rc).approach : NAN;
-    if (isnan(approach) || rc->interlayer_normal > 0.0) /* which the mean pressure compresses */
+    /* which the mean pressure compresses */
+    if (isnan(approach) || rc->interlayer_normal > 0.0 || rb_rolling_mean_compresses(rc))
         return s;
     const double most = mean_gap(rc);
     return approach < most ? RB_OK

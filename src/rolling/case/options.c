@@ -166,10 +166,12 @@ const rb_option rb_case_table[] = {
         "standard deviation of the noise in the gap file; the gap is then the smoothest "
         "curve with this deviation from the points; 0: a cubic spline through the points",
         .frozen = 1),
-    RB_NUMBER_LINE("period", RC(period), "mm", RB_ABOVE(0),
-                   "static, elastic half-planes: length L after which the gap repeats itself; "
-                   "--load and --force are those of one period",
-                   .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE(
+        "period", RC(period), "mm", RB_ABOVE(0),
+        "static, elastic half-planes, also with a layer: length L after which the gap repeats "
+        "itself; "
+        "--load and --force are those of one period",
+        .word = "none", .word_value = 0.0),
     RB_NUMBER_LINE("amplitude", RC(amplitude), "mm", RB_ABOVE(0),
                    "gap wave, D (1 - cos(2 pi x/L)): its amplitude D, half of the height from "
                    "crest to trough",

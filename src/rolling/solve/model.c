@@ -60,7 +60,8 @@ static rb_status check_determined(const rb_rolling_model *model, rb_message *why
 {
     const rb_contact_problem *p = &model->problem;
 
-    if (!rb_rolling_fills_period(model->rc, &model->mesh) || p->force_given)
+    if (!rb_rolling_fills_period(model->rc, &model->mesh) || p->force_given ||
+        rb_rolling_mean_shears(model->rc))
         return RB_OK;
     for (int i = 0; i < p->n; i++)
         if (model->state.zone[i] == RB_ZONE_SEPARATED || p->bound[i] == 0.0 ||

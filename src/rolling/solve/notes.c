@@ -543,7 +543,7 @@ static int base_pulls(const rb_rolling_case *rc, const rb_rolling_solution *s, c
     static const double small = 0.01;
     double most = 0.0;
 
-    if (!rb_rolling_slides_on_base(rc) || !(s->max_pressure > 0.0))
+    if (!rb_rolling_slides_on_base(rc) || !(s->max_pressure > 0.0) || rc->period > 0.0)
         return 0;
     if (rc->a.layer_base == RB_BASE_SMOOTH)
         most = tension_of_base(rc, &rc->a, s, 1.0);
