@@ -214,7 +214,10 @@ def tag_complementary():
 def tag_W5():
     """What is worn off at A's place x lies under B's place X = x + u."""
     printed(ROLLING, r"h_A(x) \leftarrow h_A + K_A 4SN \sum_j w_j p_j(x), \qquad h_B(X) \leftarrow h_B + K_B 4SN \sum_j w_j p_j(X - u_j)")
-    printed(ROLLING, "the\ngap is g(x) + h_A(x) + h_B(x + u)")
+    at = printed(ROLLING, "the\ngap is g(x) + h_A(x) + h_B(x + u)").split("h_B(")[1][:-1]
+    p = lambda x: np.exp(-x*x)
+    h_B = lambda X, u: p(X - u)
+    close([h_B(value(at, x=x, u=0.4), 0.4) for x in (-0.3, 0.0, 0.8)], [p(x) for x in (-0.3, 0.0, 0.8)])
 
 
 def tag_B10_strip():
@@ -228,6 +231,41 @@ def tag_B10_strip():
 def tag_V8_logarithm():
     text = printed(BODIES, r"\ell = -\ln(1-e^{ix})").split("=")[1].replace("(1-e^{ix})", "(1-E)")
     close(value(text, E=0.9*np.exp(0.7j)), sum((0.9*np.exp(0.7j))**m/m for m in range(1, 2000)))
+
+
+def tag_L1_waves():
+    """The half-plane (B6), whose logarithm and sign have the transforms -pi/abs(k) and 2/(i k)."""
+    N, T = (printed(BODIES, t).split("=")[1] for t in (
+        r"w_N = \frac{2}{E^*|k|}\left[L_N\,p - i\operatorname{sgn}(k)\,L_C\,q\right]",
+        r"w_T = \frac{2}{E^*|k|}\left[L_T\,q + i\operatorname{sgn}(k)\,L_C\,p\right]"))
+    Es, c = 3.0, 0.1
+    for k in (-1.7, 0.4):
+        names = dict(Es=Es, k=k, i=1j, L_N=1.0, L_T=1.0, L_C=c*Es)
+        direct, coupled = -2/(np.pi*Es)*(-np.pi/abs(k)), 2*c/(1j*k)
+        close([value(N, p=1.0, q=0.0, **names), value(N, p=0.0, q=1.0, **names)], [direct, coupled])
+        close([value(T, p=0.0, q=1.0, **names), value(T, p=1.0, q=0.0, **names)], [direct, -coupled])
+
+
+def tag_period():
+    printed(ROLLING, r"w_N(x) = -\frac{2}{\pi E^*} \int_0^L p(s) \ln\left|2 \sin\frac{\pi (x-s)}{L}\right| ds, \qquad "
+                     r"\operatorname{sgn} u \;\to\; 1 - \frac{2u}{L}, \quad 0 < u < L")
+    s = rollbem.solve(support="halfplane", young=1.0, poisson=0.3, radius=100, gap="parabola", period=3.0, load=1e-3, mu=0.3,
+                      mesh="uniform", zone=0.8, contact_elements=16)
+    F, x, h, n = np.array(s.F), np.array(s.x), s.h[0], 16
+    over = lambda f, j: quad(lambda u: f(x[j] - u), x[0] - h/2, x[0] + h/2)
+    for j in (3, 9):
+        close(F[j, 0], -2*0.91/np.pi*over(lambda d: np.log(abs(2*np.sin(np.pi*d/3.0))), j), 1e-7)
+        close(F[j, n], 0.4*1.3/2*over(lambda d: 1 - 2*d/3.0, j), 1e-7)
+
+
+def tag_shakedown():
+    printed(BODIES, r"k(y) = \min_c \max_x \sqrt{\left(\frac{s_{xx}-s_{yy}}{2} + c\right)^2 + s_{xy}^2}, \qquad 2c \text{ the residual stress}")
+    x = np.linspace(-8, 8, 401)
+    below = rollbem.stress(**STEEL, half_width=1, mu=0, points=np.column_stack([x, np.full(401, 0.5)]))
+    half, sxy = (np.array(below.sxx) - np.array(below.syy))/2, np.array(below.sxy)
+    k = min((np.sqrt((half + c)**2 + sxy**2)).max() for c in -np.linspace(0, 1, 2001)*half.max())
+    p0 = below.solution.max_pressure
+    close(k, p0/4, 5e-3)  # the largest orthogonal shear
 
 
 if __name__ == "__main__":
