@@ -829,6 +829,21 @@ TEST(pictures_name_the_case)
     }
 }
 
+/* The temperature below a wheel is that below a half-plane, and says so. */
+TEST(temperature_below_a_wheel_says_what_it_is)
+{
+    static const char *const support[] = {"halfplane", "hub"};
+    for (int k = 0; k < 2; k++) {
+        if (shellf("\"$R\" stress --support %s --load 500 --mu 0.3 --formulation steady --creep "
+                   "-0.02 --speed 1000 --conductivity 50 --heat-capacity 3.6 --contact-elements 20 "
+                   "--grid 3x3 > warm.tsv",
+                   support[k]))
+            fail_msg("%s: %s", support[k], err);
+        assert_int_equal(strstr(err, "temperature: of a half-plane") != NULL, k);
+        assert_int_equal(shell("grep -q '^# temperature: of a half-plane' warm.tsv") == 0, k);
+    }
+}
+
 /* Of both bodies, or of A on a rigid plane, whose cycle closes the second time. */
 TEST(fretting_has_a_picture)
 {

@@ -124,6 +124,18 @@ static const char *given_text(const rb_report_stress *s, int k, char *line, size
     return line;
 }
 
+/* Of a wheel the temperature is that of a half-plane; NULL: the body is one, or has none. */
+static const char *temperature_text(const rb_report_stress *s)
+{
+    const rb_rolling_result *column =
+        rb_rolling_find_result(&rb_rolling_stress_scalars, "temperature");
+    return rb_rolling_has_result(column, s->rc, 0) &&
+                   !rb_rolling_body_can(s->of_b ? &s->rc->b : &s->rc->a, RB_BODY_FLAT)
+               ? "temperature: of a half-plane under the same heat; the curvature of the body is "
+                 "neglected"
+               : NULL;
+}
+
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
@@ -143,6 +155,8 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
             fprintf(out, "  %s\n", line);
     if (s->shakedown)
         fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
+    if (temperature_text(s))
+        fprintf(out, "  %s\n", temperature_text(s));
     rb_locale_end(before);
 }
 
@@ -184,6 +198,8 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
             rb_report_comment(&c, "%s", line);
     if (s->shakedown)
         rb_report_comment(&c, "%s", shakedown_text(s, line, sizeof line));
+    if (temperature_text(s))
+        rb_report_comment(&c, "%s", temperature_text(s));
     for (int k = 0; k < s->n; k++) {
         if (!rb_report_stress_is_inside(s, k))
             continue;
