@@ -38,7 +38,10 @@ do for [k=0:steps] {
     unset label # drawn over and over they grow fat
 }
 eval open_panel(steps + 1)
-set title sprintf('{/:Bold from the side}  (×%g)', number(scales, steps + 1)) offset 0,0.1
+# over the panel, not over the plot, which is narrow where the truss is tall
+unset title
+set label 4 sprintf('{/:Bold from the side}  (×%g)', number(scales, steps + 1)) \
+    at screen left(steps + 1) + 0.41 * wide, top(steps + 1) - (titled ? 0.031 : 0.012) center
 set autoscale
 set size ratio -1
 unset tics
