@@ -31,7 +31,8 @@ static void add_error(const rb_rolling_solution *s, const rb_rolling_solution *f
 }
 
 /* An error that passes through zero is small by chance: errors are added over several motions. */
-static void check_errors(const char *bodies, int first, int count, const int *sizes, int fine)
+static void check_errors(const char *bodies, int measures, int first, int count, const int *sizes,
+                         int fine)
 {
     static const char base[] = "support halfplane gap parabola radius 50 half-width 0.1 "
                                "formulation steady mu 0.3";
@@ -51,7 +52,7 @@ static void check_errors(const char *bodies, int first, int count, const int *si
         }
     }
     for (int n = first + 1; n < count; n++)
-        for (int e = 0; e < MEASURES; e++)
+        for (int e = 0; e < measures; e++)
             if (!(error[n][e] <= 1.1 * error[n - 1][e]))
                 fail_msg("%s: error of %s: %.2g with %d elements, %.2g with %d", bodies,
                          measure_name[e], error[n - 1][e], sizes[n - 1], error[n][e], sizes[n]);
@@ -76,7 +77,20 @@ TEST(more_elements_never_give_a_larger_error)
     static const int sizes[] = {37, 75, 150};
 
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-        check_errors(rows[k].bodies, rows[k].from, 3, sizes, 400);
+        check_errors(rows[k].bodies, MEASURES, rows[k].from, 3, sizes, 400);
+}
+
+/* The force, each number of elements twice the one before, from 20 to 1280. */
+TEST(twice_the_elements_never_give_a_larger_error)
+{
+    static const char *const rows[] = {"similar yes young 210000 poisson 0.3", unlike, rigid_plane};
+    enum { ROWS = sizeof rows / sizeof *rows };
+    static const int few[] = {20, 40, 80, 160}, many[] = {160, 320, 640, 1280};
+
+    for (int k = 0; k < 2 * ROWS; k++)
+        if (is_in_turn(k, 2 * ROWS))
+            check_errors(rows[k % ROWS], FORCE + 1, 0, 4, k < ROWS ? few : many,
+                         k < ROWS ? 401 : 3201);
 }
 
 /* Where the matrix ends and products begin, and far beyond. */
@@ -95,7 +109,7 @@ TEST(many_elements_never_give_a_larger_error)
 
     for (int k = 0; k < ROWS; k++)
         if (is_in_turn(k, ROWS))
-            check_errors(rows[k], 0, 4, sizes, 2400);
+            check_errors(rows[k], MEASURES, 0, 4, sizes, 2400);
 }
 
 /* From mu beta = 1 on Newton's method fails on most aligned elements: there the program takes equal
