@@ -65,6 +65,7 @@ static const char *const lines[] = {
     "~ --formulation transient --distance 0.2 --irregularity {flat} --load {N/mm 100} --creep 0",
     "~ --friction-law {law} --load {N/mm 100} --shift {mm 1e-4}",
     "~ --history {history}",
+    "~ --history {frets} --fretting --mu 0.3 --contact-elements 20",
     "~ --load {N/mm 500} --derivatives=max_pressure,approach --shift {mm 0.001}",
     "~ --load {N/mm 500} --tolerance radius=1%,load={N/mm 10} --shift {mm 0.001} "
     "--contact-elements 40",
@@ -78,6 +79,9 @@ static const char *const lines[] = {
     "{MPa 300}",
     "stress --support halfplane --young {MPa 205000} --poisson 0.3 --tractions {tractions} "
     "--points {points}",
+    "stress --support halfplane --radius {mm 46.5} --layers {layers} --base-young {MPa 205000} "
+    "--base-poisson 0.3 --load {N/mm 50} --mu 0.2 --shift {mm 1e-4} --contact-elements 20 --grid "
+    "3x3",
     "wear ~ --load {N/mm 500} --slide {mm 1e5} --wear-coefficient {1/MPa 1e-10} --wear-steps 2",
     "wear ~ --load {N/mm 500} --shift {mm 0.002} --cycles 1e5 --wear-coefficient {1/MPa 1e-10} "
     "--wear-steps 2 --quarter 4",
@@ -119,6 +123,7 @@ static const struct {
     {"points", "x y", {"mm", "mm"}, "0 .5 .1 .3"},
     {"layers", "thickness young poisson", {"mm", "MPa", "-"}, "2 2000 .3 1 9000 .4"},
     {"history", "load shift", {"N/mm", "mm"}, "100 0 200 .0005 150 -.0002"},
+    {"frets", "load force", {"N/mm", "N/mm"}, "200 0 200 30 200 -30 200 30"},
     {"cases", "load young", {"N/mm", "MPa"}, "100 205000 200 190000"},
     {"data", "creep force", {"-", "N/mm"}, "-5e-4 50 -1e-3 88 -2e-3 132 -3e-3 146 -5e-3 150"}};
 
