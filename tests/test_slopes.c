@@ -60,6 +60,11 @@ static const words histories[] = {
       "creep 1e-3 steps 15"}},
     {{"support halfplane contact-elements 30 formulation transient similar yes history "
       "tests/data/slopes_history.tsv"}},
+    /* bodies that relax at rest, under loads in time */
+    {{"support halfplane similar yes contact-elements 22 formulation static relaxation-time 0.01 "
+      "relaxation-ratio 1 time-step 0.01 history tests/data/slopes_rest.tsv"}},
+    {{"support halfplane contact-elements 24 zone 2 formulation static relaxation-time 0.01 "
+      "relaxation-ratio 1 interlayer-normal 2e-6 history tests/data/slopes_rest.tsv"}},
 };
 
 TEST(histories_have_derivatives)

@@ -123,6 +123,9 @@ double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load);
  * where nothing has relaxed yet. */
 double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load);
 
+/* The case with elastic bodies that are as soft as its own, which relax, in a step of this length
+ * [s].  INFINITY: rubbery, as the elements of a history at rest are made for. */
+rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
 /* The half-width that an automatic zone follows [length]: Hertz's, or, where it is larger, that
  * between rigid bodies with the normal compliance L_N of the third body, P = 2 a^3/(3 R L_N).
  * load: NaN: those of the given approach. */

@@ -27,16 +27,23 @@ typedef struct {
     int moved;         /* the first of them; steps: none */
 } allowed;
 
-/* What the elements grow with, under the largest load: of bodies that relax, which roll by
- * elements, the unit of the way. */
+/* The elements of bodies that relax and roll are steps of the way. */
+static int elements_are_steps(const rb_rolling_case *rc)
+{
+    return rb_rolling_relaxes(rc) && rc->formulation != RB_STATIC;
+}
+
+/* What the elements grow with, under the largest load: the unit of the way, or the zone, which
+ * holds what has relaxed. */
 static double unit_of_elements(const rb_rolling_case *rc, const rb_rolling_program *program)
 {
+    const rb_rolling_case relaxed = rb_rolling_memory_case(rc, INFINITY);
     double load = rb_rolling_derive(rc).load;
 
     for (int k = 0; program && program->load && k < program->n; k++)
         load = k > 0 ? fmax(load, program->load[k]) : program->load[k];
-    return rb_rolling_relaxes(rc) ? rb_rolling_unit_of_distance(rc, load)
-                                  : rb_rolling_zone_half_width(rc, load);
+    return elements_are_steps(rc) ? rb_rolling_unit_of_distance(rc, load)
+                                  : rb_rolling_zone_half_width(&relaxed, load);
 }
 
 static void followers_free(varied *v)
@@ -52,7 +59,7 @@ static void followers_free(varied *v)
 static int elements_grow(const rb_rolling_case *rc)
 {
     return (rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && rc->worn.n == 0) ||
-           rb_rolling_relaxes(rc);
+           elements_are_steps(rc);
 }
 
 /* RB_INACCURATE: elements outside the contact go from one side of it to the other. */
@@ -342,8 +349,7 @@ rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
         return rb_refuse(why, "approach",
                          "derivatives of a history: under a given approach the unit of "
                          "its distances depends on the solution; give a load");
-    /* those of bodies that relax are as long as a step */
-    return rb_rolling_relaxes(rc) ? RB_OK : check_elements(rc->contact_elements, why);
+    return elements_are_steps(rc) ? RB_OK : check_elements(rc->contact_elements, why);
 }
 
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,

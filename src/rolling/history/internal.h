@@ -31,9 +31,6 @@ typedef struct {
     double lost;      /* energy that the bodies have dissipated so far [force] */
 } rb_rolling_memory_track;
 
-/* The equivalent elastic bodies for a step of this length in seconds.  INFINITY:
- * rubbery. */
-rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
 /* Creates a track for bodies at rest without earlier loads; its arrays are memory's.  tail >
  * 0: equal elements. */
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
