@@ -101,6 +101,24 @@ TEST(covers_have_no_elements_around_them)
     CHECK_REL(value[1], value[2], 0.01, "60 elements");
 }
 
+/* Below a sleeve that bends the pressure rises towards its edge and falls off within two elements:
+ * the nodes there carry the load of the elements, and no parabola that has 2 % more of P. */
+TEST(nodes_at_an_edge_carry_its_load)
+{
+    static const int elements[] = {60, 100, 240};
+    for (int k = 0; k < 3; k++) {
+        char line[400];
+        snprintf(line, sizeof line,
+                 "stress --support hub --cover-thickness 0.15 --radius 100 --young 5000 --poisson "
+                 "0.45 --core-young 100 --core-poisson 0.3 --hub-ratio 0.5 --gap parabola --load "
+                 "1.4 --mu 0 --grid 2x2 --contact-elements %d",
+                 elements[k]);
+        held_json *root = run_json(line);
+        CHECK_REL(largest(root, "von_mises", "value"), 5.8500, 5e-4, "%s", line);
+        CHECK_REL(largest(root, "tension", "value"), 2.170, 1e-3, "%s", line);
+    }
+}
+
 /* ---- Values and places ------------------------------------------------------------- */
 
 #define FLAT "--support halfplane --gap parabola --mu 0 "

@@ -217,7 +217,7 @@ rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, d
                               rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
-/* (B15) Stress in the cover of a wheel, on an elastic core or a rigid one.  load: linear between
+/* (B20) Stress in the cover of a wheel, on an elastic core or a rigid one.  load: linear between
  * nodes, the abscissae of which are measured along the circle from its lowest point; borrowed.
  * RB_EINVAL: thinner than this part of the radius; a point lies outside the cover. */
 #define RB_BEM_RING_THINNEST 1e-4

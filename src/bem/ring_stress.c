@@ -1,4 +1,4 @@
-/* Stress in a cover (B15): that of the half-plane under the same tractions along
+/* Stress in a cover (B20): that of the half-plane under the same tractions along
  * the arc, in closed form, and the difference between the waves of the ring and those of the
  * half-plane, whose depth is R ln(R/r). */
 #include "bem/internal.h"

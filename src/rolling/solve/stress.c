@@ -1,5 +1,5 @@
 /* Subsurface stress of body A (B8): closed-form strips on the half-plane, with the waves
- * of its layer (L5), waves around a cover (B15), Somigliana's identity on a wheel. */
+ * of its layer (L5), waves around a cover (B20), Somigliana's identity on a wheel. */
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>

@@ -8,6 +8,10 @@
  * replaced. */
 enum { PARTS = 4, LEAST_REPLACED = 2, MOST_REPLACED = 5 };
 
+/* How much the load of the elements beside an edge may differ from that put in its place, over that
+ * of one. */
+static const double SAME_LOAD = 0.1;
+
 /* One run of elements in contact.  x: midpoints. */
 typedef struct {
     const rb_rolling_case *rc;
@@ -39,6 +43,21 @@ static double set_parabola(edge *e, const double t[3], const double y[3])
     e->b = slope - e->c * t[1];
     const double square = e->b * e->b - 4.0 * e->c;
     return e->b < 0.0 && square >= 0.0 ? 2.0 / (sqrt(square) - e->b) : 0.0;
+}
+
+/* From the outermost trusted midpoint to the edge, less what the elements carry there, over the
+ * load of that element. */
+static double more_load(const patch *r, const edge *e, double reach)
+{
+    enum { PARTS_OF_REACH = 64 };
+    const int outer = e->side > 0 ? r->last : r->first;
+    double carried = 0.5 * r->p[e->from] * (r->ends[e->from + 1] - r->ends[e->from]), load = 0.0;
+    for (int j = e->from; j != outer; j += e->side)
+        carried += r->p[j + e->side] * (r->ends[j + e->side + 1] - r->ends[j + e->side]);
+    for (int i = 0; i < PARTS_OF_REACH; i++)
+        load += r->p[e->from] * pressure_beyond(e, reach * (i + 0.5) / PARTS_OF_REACH) * reach /
+                PARTS_OF_REACH;
+    return (load - carried) / (r->p[e->from] * (r->ends[e->from + 1] - r->ends[e->from]));
 }
 
 /* With so many elements replaced, by the parabola through three that lie so many apart. */
@@ -74,7 +93,10 @@ static edge edge_with(const patch *r, int side, int replaced, int apart)
         if (!(fabs(r->p[j] / r->p[e.from] - there) < 0.2 * there))
             return e;
     }
-    if (reach > side * (inner_end - r->x[e.from]) && reach < side * (outer_end - r->x[e.from]))
+    /* Nor is there more or less of a load: below a sleeve that bends the pressure rises towards an
+     * edge, and falls off within fewer elements than the parabola. */
+    if (reach > side * (inner_end - r->x[e.from]) && reach < side * (outer_end - r->x[e.from]) &&
+        fabs(more_load(r, &e, reach)) < SAME_LOAD)
         e.reach = reach;
     return e;
 }
