@@ -72,8 +72,8 @@ TEST(a_wheel_slides_as_a_half_plane)
     CHECK_REL(largest(root, "tension", "value"), 0.6 * p0, 2e-3, "2 mu p0");
 }
 
-/* So does a cover; and where contact elements are longer than a sleeve is thick its stress is that
- * on shorter ones, and no element far away has more. */
+/* (B20) So does a cover; and where contact elements are longer than a sleeve is thick its stress is
+ * that on shorter ones, and no element far away has more. */
 TEST(covers_have_no_elements_around_them)
 {
     held_json *root =
