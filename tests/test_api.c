@@ -1376,7 +1376,7 @@ TEST(derivatives_of_steps)
     for (int k = 0; k < steps; k++)
         CHECK_ABS(deviation[k], 0.04 * fabs(d[k]), 1e-12 * fabs(before[steps - 1]), "step %d", k);
     assert_int_equal(rb_api_step_derivatives(a, "tangential_load", "moo=1"), RB_EINVAL);
-    assert_non_null(strstr(rb_api_message(a), "tolerance: 'moo' is not a number of this case"));
+    assert_non_null(strstr(rb_api_message(a), "--tolerance: 'moo' is not a number of this case"));
     assert_int_equal(rb_api_set(a, "mu", "0.2"), RB_OK);
     assert_int_equal(rb_api_step_derivatives(a, "tangential_load", NULL), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "need a case with steps that has been solved"));

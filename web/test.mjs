@@ -528,7 +528,7 @@ await test("a pass over a crack is the program's, dry and with water", () => {
 });
 await test("a crack that the library refuses is refused with its line", () => {
     const got = answer(library, crack_request({ ...CRACK_CASE, "crack-angle": "180" }, true));
-    check(/^crack-angle: expected more than 0 and less than 180/.test(got.refused), got.refused);
+    check(/^--crack-angle: expected more than 0 and less than 180/.test(got.refused), got.refused);
 });
 await test("which input matters: the derivatives are differences of the library's own solutions", () => {
     const given = { ...PRESETS.rail, mesh: "uniform", zone: "12" },
@@ -1078,7 +1078,7 @@ async function views(page) {
         await page.run("rollbem.store.set('crack', { ...rollbem.store.case('crack'), 'crack-angle': '180' })");
         await settled();
         check(
-            /^Not solved: crack-angle: expected more than 0/.test(await text_of("#at-crack .answer")) &&
+            /^Not solved: --crack-angle: expected more than 0/.test(await text_of("#at-crack .answer")) &&
                 (await page.run("document.querySelector('#at-crack figure').classList.contains('stale')")),
             await text_of("#at-crack .answer"),
         );
@@ -1152,7 +1152,7 @@ async function views(page) {
         const [P, Q] = [await number("normal_load"), await number("tangential_load")];
         check_close(Q, -0.3 * P, 1e-6 * P, "Q");
         check(/Q friction −3750 ± 380 N\/mm/.test(await type("mu=10%")), await type("mu=10%"));
-        check(/Not a standard deviation of this case: tolerance: 'moo'/.test(await type("moo=1%")), await type("moo=1%"));
+        check(/Not a standard deviation of this case: --tolerance: 'moo'/.test(await type("moo=1%")), await type("moo=1%"));
         check((await type("")) === "", "nothing is uncertain");
         await type("mu=10%,radius=1%,young=1%");
     });

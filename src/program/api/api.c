@@ -197,9 +197,19 @@ static rb_status add_state(rb_api *a, const char *beginning, const rb_contact_st
 
 /* ---- A case ------------------------------------------------------------------------ */
 
+void rb_api_name_option(rb_message *why)
+{
+    const rb_message said = *why;
+
+    if (said.about[0])
+        rb_fail(why, RB_EINVAL, "--%s", said.text);
+}
+
 int rb_api_ended(rb_api *a, rb_status s)
 {
     a->status = s;
+    if (s == RB_EINVAL)
+        rb_api_name_option(&a->why);
     if (s == RB_OK || !a->why.text[0])
         snprintf(a->why.text, sizeof a->why.text, "%s", s == RB_OK ? "" : rb_status_text(s));
     return s;
@@ -209,6 +219,7 @@ int rb_api_refuse(rb_api *a, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
+    a->why.about[0] = '\0';
     vsnprintf(a->why.text, sizeof a->why.text, format, args);
     va_end(args);
     return rb_api_ended(a, RB_EINVAL);

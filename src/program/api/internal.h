@@ -92,6 +92,8 @@ void rb_api_forget_arrays(rb_api *a, const char *beginning);
 void rb_api_forget_slopes(rb_api *a, api_slopes of);
 /* What the last call left: its message, how far it came, and whether it was stopped. */
 void rb_api_forget_call(rb_api *a);
+/* A refusal that no file or argument has answered for names its option as one: --crack-angle. */
+void rb_api_name_option(rb_message *why);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
 /* Ends a call with RB_EINVAL and this line. */

@@ -523,8 +523,9 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
             if (u == RB_OK)
                 u = rb_case_crack_check(rb_case_resolved(of->words), &st.crack[k], &why);
             if (u == RB_OK && !isnan(st.crack[k].paris))
-                u = rb_fail(&why, RB_EINVAL,
-                            "--paris: a study has the K of cracks of given lengths");
+                u = rb_refuse(&why, "paris", "a study has the K of cracks of given lengths");
+            if (u != RB_OK)
+                rb_api_name_option(&why);
             s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
         }
     a->study_units = n > 0 && s == RB_OK ? rb_case_resolved(cases[0]->words)->units : RB_UNITS_MM;
