@@ -472,7 +472,7 @@ TEST(all_solvers_agree)
 /* What friction cannot turn, and what does not go with it. */
 TEST(bad_axles_are_refused)
 {
-    static const char *const word[4] = {"more than friction carries", "steady rolling only",
+    static const char *const word[4] = {"more than friction carries", "it needs steady rolling",
                                         "expected mu > 0", "excludes"};
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = hunter(2.0, 0.8, 40);
