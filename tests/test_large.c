@@ -330,7 +330,7 @@ TEST(much_friction_is_reached_step_by_step)
 
 /* A problem that is given up says so after a few steps, and the state stays one that another solve
  * may start from. */
-TEST(patience_ends_a_search)
+TEST(a_search_ends_at_its_step_limit)
 {
     rb_rolling_case rc = with(steady(RIGID, 400), "poisson 0.1 mu 1 mesh uniform");
     OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -339,12 +339,12 @@ TEST(patience_ends_a_search)
     rb_contact_set_friction(&model.problem, rc.mu, NULL);
     CHECK_SAYS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &heard), RB_MAXITER,
                "mu beta = 13.3");
-    assert_true(model.problem.patience > 0);
-    assert_true(model.state.iterations < 2 * model.problem.patience);
+    assert_true(model.problem.step_limit > 0);
+    assert_true(model.state.iterations < 2 * model.problem.step_limit);
     set(&rc, "mu 1");
     rb_contact_set_friction(&model.problem, rc.mu, NULL);
     CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &heard));
-    assert_int_equal(model.problem.patience, 0);
+    assert_int_equal(model.problem.step_limit, 0);
 }
 
 /* Carter: Q/(mu P) = s (2 - s); Hertz: p0 = E* a/(2R).  First order in 1/n. */

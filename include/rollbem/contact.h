@@ -96,7 +96,7 @@ typedef struct {
                         differences of neighbouring gaps are small compared with the
                         displacements; 0 with matrices */
     double sliding;  /* > 0: an |xi| at which the whole contact slides; searches start there */
-    int patience;    /* > 0: steps after which a problem without a matrix is given up */
+    int step_limit;  /* > 0: steps after which a problem without a matrix is given up */
     const char *force_unit; /* printed after forces in error messages; NULL: none */
 
     /* Called in each step of Newton's method, before the zones are corrected, with the

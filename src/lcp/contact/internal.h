@@ -165,7 +165,7 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
 rb_contact_zone rb_contact_sliding_zone(double lambda);
 
 /* 1: further steps and other starts may be tried. */
-int rb_contact_has_patience(const rb_contact_problem *problem, const rb_contact_state *state);
+int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contact_state *state);
 /* Zones from p, q and lambda; entries below tol times the scales count as zero. */
 void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state);
 

@@ -163,7 +163,7 @@ static rb_status follow(path *k)
         s = solve_both(k);
     }
     for (int count = 0;
-         s == RB_OK && count < MOST_BENDS && rb_contact_has_patience(k->problem, k->state);
+         s == RB_OK && count < MOST_BENDS && rb_contact_has_steps_left(k->problem, k->state);
          count++) {
         bend at = {k->way * INFINITY, -1, 0};
 

@@ -175,8 +175,8 @@ double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
     return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;
 }
 
-int rb_contact_has_patience(const rb_contact_problem *problem, const rb_contact_state *state)
+int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contact_state *state)
 {
-    return problem->patience == 0 || state->iterations < problem->patience ||
+    return problem->step_limit == 0 || state->iterations < problem->step_limit ||
            rb_contact_operator_matrix(problem->op).F;
 }

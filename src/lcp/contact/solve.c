@@ -297,7 +297,7 @@ static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact
         /* A first share, a half or less, for which Newton's steps end without a start. */
         s = RB_MAXITER;
 
-        for (int k = 0; k < MOST_HALVINGS && s > 0 && rb_contact_has_patience(problem, state);
+        for (int k = 0; k < MOST_HALVINGS && s > 0 && rb_contact_has_steps_left(problem, state);
              k++) {
             take_share(&of, of.share *= 0.5, problem);
             s = proven(solve_newton(problem, options, 0, state), problem, options, state);
@@ -311,7 +311,7 @@ static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact
 
             rb_contact_copy_start(state, &good);
             while (s == RB_OK && of.share < 1.0 && step > LEAST_STEP &&
-                   rb_contact_has_patience(problem, state)) {
+                   rb_contact_has_steps_left(problem, state)) {
                 const double next = fmin(1.0, of.share + step);
                 take_share(&of, next, problem);
                 s = solve_newton(problem, options, 1, state);
@@ -370,7 +370,7 @@ static rb_status solve_given(rb_contact_problem *problem, const rb_contact_optio
         order[count++] = LEMKE;
     rb_status s = RB_RAY;
 
-    for (int k = 0; k < count && s >= 0 && (k == 0 || rb_contact_has_patience(problem, state));
+    for (int k = 0; k < count && s >= 0 && (k == 0 || rb_contact_has_steps_left(problem, state));
          k++) {
         s = order[k] == LEMKE ? solve_lemke(problem, options, state, why)
                               : solve_newton(problem, options, order[k] == NEWTON_WARM, state);
@@ -379,7 +379,7 @@ static rb_status solve_given(rb_contact_problem *problem, const rb_contact_optio
     }
     if (s >= 0 && !is_solved(s, problem, options, state) &&
         !rb_contact_operator_matrix(problem->op).F && problem->mu > 0.0 &&
-        rb_contact_has_patience(problem, state))
+        rb_contact_has_steps_left(problem, state))
         s = solve_by_friction(problem, options, state);
     return proven(s, problem, options, state);
 }

@@ -463,7 +463,7 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
     const int many = coupling >= 1.0 && !rb_contact_operator_matrix(problem->op).F;
 
     problem->sliding = rb_rolling_sliding_creepage(rc, problem);
-    problem->patience = many ? LEAST_STEPS + (int)(MOST_WORK / problem->n) : 0;
+    problem->step_limit = many ? LEAST_STEPS + (int)(MOST_WORK / problem->n) : 0;
     const rb_status s = rb_contact_solve(problem, &rc->contact, warm, state, why);
     if (s > 0 && many)
         rb_fail(why, s,

@@ -248,7 +248,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     }
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
-    const int most = model->problem.patience > 0 ? MOST_WITH_COUPLING : RB_ROLLING_LARGE - 1;
+    const int most = model->problem.step_limit > 0 ? MOST_WITH_COUPLING : RB_ROLLING_LARGE - 1;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) || !large ||
         model->mesh.n > most)
         return s;
