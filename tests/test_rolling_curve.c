@@ -175,6 +175,23 @@ TEST(warm_curves_have_the_temperatures_of_their_cases)
     rb_rolling_curve_free(&c);
 }
 
+/* Friction that depends on the slip does so on the speed, of which slip is a part. */
+TEST(speeds_change_the_friction_of_a_law)
+{
+    rb_rolling_case rc = with(carter(24), "creep 0.1 friction-law exponential mu-fall 0.1");
+    rc.friction.slip_scale[0] = 100.0;
+    OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_SPEED, 1000.0, 4000.0, 3);
+    rc.formulation = RB_STEADY;
+    for (int k = 0; k < 3; k++) {
+        rc.speed = 1000.0 * (1 << k);
+        OWNED(rb_rolling_solution) s = solved(&rc);
+        CHECK_REL(c.force_ratio[k], s.force_ratio, 1e-8, "V = %g", rc.speed);
+        /* all of it slides: mu(V xi) < mu(0) */
+        CHECK_ABS(c.force_ratio[k],
+                  -(rc.mu + 0.1 * pow(2.0, -rc.speed * 0.1 / 100.0)) / (rc.mu + 0.1), 1e-3, "law");
+    }
+}
+
 static void refused(rb_rolling_case rc, rb_rolling_range range, const char *words)
 {
     OWNED(rb_rolling_curve) c;

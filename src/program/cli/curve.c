@@ -34,7 +34,7 @@ static const rb_option options[] = {
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, RB_ROLLING_MOST_POINTS),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
     RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
-                   "what is varied: xi R/(mu a), xi itself, or the speed of bodies that relax"),
+                   "what is varied: xi R/(mu a), xi itself, or the speed"),
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
                  "columns with the derivatives of these results of single cases at every point, "
                  "with respect to all numbers, or RESULT:OPTION to one",
@@ -58,9 +58,10 @@ static const char about[] =
     "for similar bodies.\n"
     "If friction depends on the slip or the temperature, the curve is also computed\n"
     "for decreasing creepage: column branch, and a second line in the picture.\n"
-    "--over speed shows the rolling resistance M/(P R) of viscoelastic bodies;\n"
-    "creepage or force is then given by --creep, --force or --free-axle as in a\n"
-    "single case.\n"
+    "--over speed shows the rolling resistance M/(P R) of viscoelastic bodies, else\n"
+    "the friction that depends on the slip or the temperature (under a given force\n"
+    "the creepage); creepage or force is then given by --creep, --force or\n"
+    "--free-axle as in a single case.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES

@@ -129,7 +129,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
-        if (speeds) {
+        if (speeds && rb_rolling_relaxes(curves->rc)) {
             int most = 0; /* points without a solution, and bodies without a radius, have none */
             for (int i = 1; i < c->n; i++)
                 if (c->resistance_ratio[i] > c->resistance_ratio[most] ||
@@ -138,7 +138,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
             if (!isnan(c->resistance_ratio[most]))
                 fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
                         c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
-        } else if (c->branch) {
+        } else if (c->branch && !speeds) {
             /* How far apart rising and falling creepage are. */
             int most = 0;
             double widest = 0.0;
@@ -155,7 +155,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                         "%.3g\n",
                         widest, c->creepage[most], largest(c->n, c->kappa));
         }
-        if (curves->has_errors && speeds)
+        if (curves->has_errors && speeds && rb_rolling_relaxes(curves->rc))
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
                     largest(c->n, curves->error[k].resistance_ratio));
         else if (curves->has_errors)
@@ -164,7 +164,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from coarser meshes)\n",
                 largest(c->n, curves->error[k].force_ratio),
                 largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
-        if (c->deviations && speeds)
+        if (c->deviations && speeds && rb_rolling_relaxes(curves->rc))
             fprintf(out,
                     "  standard deviation of M/(P R) at most %.2g, from those of --tolerance\n",
                     largest(c->n, c->deviations->resistance_ratio));
@@ -216,16 +216,16 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 
 /* y: those of several mu are compared by Q/P; standard deviations are those of Q, because
  * mu and P may be uncertain, too. */
-typedef enum { FORCE_RATIO, FORCE_OVER_LOAD, FORCE, RESISTANCE } ordinate;
+typedef enum { FORCE_RATIO, FORCE_OVER_LOAD, FORCE, RESISTANCE, CREEPAGE } ordinate;
 
 typedef struct {
     const rb_rolling_case *rc;
     const rb_report_curves *curves;
     rb_rolling_variable over; /* x */
     ordinate y;
-    int exponent; /* of the axis of xi, or of M/(P R) */
+    int exponent; /* of the axis of xi, or of M/(P R); 0: of neither */
     double from, to;
-    int corner;  /* of the key: 1 left top, 0 right bottom */
+    int corner;  /* of the key: 2 right top, 1 left top, 0 right bottom */
     int above_0; /* nothing is below 0 but a sliver of a band */
 } view;
 
@@ -244,15 +244,18 @@ static double x_of(const view *v, const rb_rolling_curve *c, int i)
 static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
 {
     return v->y == RESISTANCE        ? c->resistance_ratio[i] / pow(10.0, v->exponent)
+           : v->y == CREEPAGE        ? c->creepage[i] / pow(10.0, v->exponent)
            : v->y == FORCE           ? -c->tangential_load[i]
            : v->y == FORCE_OVER_LOAD ? -c->force_ratio[i] * mu
                                      : -c->force_ratio[i];
 }
 
-/* The curve of half-widths of a band; NULL: none. */
+/* The curve of half-widths of a band; NULL: none, as of creepages. */
 static const rb_rolling_curve *band_of(const view *v, int k)
 {
-    return v->curves->has_errors ? &v->curves->error[k] : v->curves->curve[k].deviations;
+    return v->y == CREEPAGE        ? NULL
+           : v->curves->has_errors ? &v->curves->error[k]
+                                   : v->curves->curve[k].deviations;
 }
 
 static double half_width(const view *v, int k, int i)
@@ -282,6 +285,12 @@ static int last_solved(const rb_rolling_curve *c)
     return k;
 }
 
+/* Speeds are spaced so; an axis without two powers of ten would have fewer than two numbers. */
+static int is_logarithmic(const view *v)
+{
+    return v->over == RB_OVER_SPEED && floor(log10(v->to)) > ceil(log10(v->from));
+}
+
 static void write_labels(FILE *out, const view *v)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
@@ -301,13 +310,16 @@ static void write_labels(FILE *out, const view *v)
                 rb_unit_shown(c->units, "mm", rb_rolling_contact_half_width(&first, load)), 4));
     }
     rb_report_let_text(out, "title", "{/:Bold %s}   P = %s %s,  a = %s%s %s",
-                       v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+                       v->y == RESISTANCE         ? "Rolling resistance"
+                       : v->over == RB_OVER_SPEED ? "Rolling friction"
+                                                  : "Creep curve",
                        RB_REPORT_NUMBER(c->normal_load[last_solved(c)], 5),
                        rb_unit_name(c->units, "N/mm"), at_first, RB_REPORT_NUMBER(half, 4),
                        rb_unit_name(c->units, "mm"));
     rb_report_let_bodies(out, v->rc, c->units);
-    if (v->over == RB_OVER_SPEED)
-        rb_report_let_text(out, "y_label", "resistance to rolling  M/(PR)%s",
+    if (v->y == RESISTANCE || v->y == CREEPAGE)
+        rb_report_let_text(out, "y_label", "%s%s",
+                           v->y == CREEPAGE ? "creepage ξ" : "resistance to rolling  M/(PR)",
                            RB_REPORT_COUNTED_IN(v->exponent, ""));
     else
         rb_report_let_text(out, "y_label", "braking force  −Q%s",
@@ -322,7 +334,7 @@ static void write_labels(FILE *out, const view *v)
         RB_REPORT_COUNTED_IN(v->over == RB_OVER_CREEP ? v->exponent : 0,
                              v->over == RB_OVER_SPEED ? rb_unit_name(c->units, "mm/s") : ""));
     rb_report_let_text(out, "x_format", "%s",
-                       v->over == RB_OVER_SPEED ? rb_report_log_format(v->from, v->to) : "% h");
+                       is_logarithmic(v) ? rb_report_log_format(v->from, v->to) : "% h");
 }
 
 /* Of the panel below: how hot the surfaces become at each point. */
@@ -396,9 +408,9 @@ static double last_row(const view *v, int k)
 
 static double y_scale(const view *v, int k)
 {
-    return v->y == RESISTANCE        ? pow(10.0, -v->exponent)
-           : v->y == FORCE_OVER_LOAD ? -scale_of(v, k)
-                                     : -1.0;
+    return v->y == RESISTANCE || v->y == CREEPAGE ? pow(10.0, -v->exponent)
+           : v->y == FORCE_OVER_LOAD              ? -scale_of(v, k)
+                                                  : -1.0;
 }
 
 static double carter_scale(const view *v, int k)
@@ -445,6 +457,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     rb_format(y, sizeof y, v->y == FORCE ? "Q_%s" : "%s",
               v->y == FORCE        ? rb_unit_name(c->units, "N/mm")
               : v->y == RESISTANCE ? "resistance_ratio"
+              : v->y == CREEPAGE   ? "creepage"
                                    : "force_ratio");
     rb_report_let_text(out, "x_name", "%s", x);
     rb_report_let_text(out, "y_name", "%s", y);
@@ -466,7 +479,8 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
         for (int i = 0; i < v->curves->curve[k].n; i++)
             most = fmax(most, half_width(v, k, i));
     rb_report_let_band(out, v->curves->has_errors,
-                       most * (v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0),
+                       most *
+                           (v->y == RESISTANCE || v->y == CREEPAGE ? pow(10.0, v->exponent) : 1.0),
                        v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
     /* Carter's law; ratio and creepage are proportional */
     rb_report_let_whole(out, "is_carter", draws_carter(v));
@@ -479,7 +493,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     rb_report_let_whole(out, "few", c->rising <= FEW);
     rb_report_let_whole(out, "key_above", v->corner);
     rb_report_let_whole(out, "above_0", v->above_0);
-    rb_report_let_whole(out, "logarithmic", v->over == RB_OVER_SPEED);
+    rb_report_let_whole(out, "logarithmic", is_logarithmic(v));
     rb_report_let_whole(out, "heat", has_heat(v));
     if (has_heat(v))
         rb_report_let(out, "heat_step", heat_step(v));
@@ -490,28 +504,32 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
                                   const rb_report_curves *curves, rb_rolling_variable over,
                                   rb_message *why)
 {
-    const int uncertain = curves->n > 0 && curves->curve[0].deviations;
+    const int uncertain = curves->n > 0 && curves->curve[0].deviations,
+              speeds = over == RB_OVER_SPEED;
     view v = {.rc = rc,
               .curves = curves,
               .over = over == RB_OVER_CREEP_RATIO && curves->n > 1 ? RB_OVER_CREEP : over,
-              .y = over == RB_OVER_SPEED ? RESISTANCE
-                   : uncertain           ? FORCE
-                   : curves->n > 1       ? FORCE_OVER_LOAD
-                                         : FORCE_RATIO};
+              .y = speeds && rb_rolling_relaxes(rc)                       ? RESISTANCE
+                   : speeds && isnan(rc->creep) && isnan(rc->creep_ratio) ? CREEPAGE
+                   : uncertain                                            ? FORCE
+                   : curves->n > 1                                        ? FORCE_OVER_LOAD
+                                                                          : FORCE_RATIO};
     for (int k = 0; k < curves->n; k++)
-        if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
+        if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && v.y != RESISTANCE))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
     double largest = 0.0;
     for (int k = 0; k < v.curves->n; k++) {
         const rb_rolling_curve *c = &v.curves->curve[k];
         for (int i = 0; i < c->n; i++)
-            largest = fmax(largest,
-                           fabs(v.over == RB_OVER_SPEED ? c->resistance_ratio[i] : c->creepage[i]));
+            largest =
+                fmax(largest, fabs(v.y == RESISTANCE ? c->resistance_ratio[i] : c->creepage[i]));
     }
-    v.exponent = rb_report_exponent(largest);
+    v.exponent = speeds && v.y != RESISTANCE && v.y != CREEPAGE ? 0 : rb_report_exponent(largest);
     v.from = INFINITY;
     v.to = -INFINITY;
-    double least = 0.0, most = -INFINITY, lowest = 0.0;
+    /* over the speed friction does not begin at 0 */
+    double least = speeds && v.y != RESISTANCE && v.y != CREEPAGE ? INFINITY : 0.0,
+           most = -INFINITY, lowest = 0.0;
     for (int k = 0; k < v.curves->n; k++)
         for (int i = 0; i < v.curves->curve[k].n; i++) {
             const double x = x_of(&v, &v.curves->curve[k], i);
@@ -523,10 +541,11 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
             lowest = fmin(lowest, y - half_width(&v, k, i));
         }
     v.above_0 = lowest < 0.0 && lowest > -0.02 * most;
-    /* The key stands right below, left above if the curves leave it no room there. */
+    /* The key stands right below, left above if the curves leave it no room there; right above
+     * those that fall from one of these corners to the other. */
     const double line = (canvas.size == RB_REPORT_85MM ? 0.05 : 0.035) * (has_heat(&v) ? 1.6 : 1.0);
     const double wide = 0.5, high = 0.08 + line * (curves->n + 1.0);
-    int taken[2] = {0, 0};
+    int taken[3] = {0, 0, 0};
     for (int k = 0; k < curves->n; k++)
         for (int i = 0; i < curves->curve[k].n; i++) {
             const rb_rolling_curve *c = &curves->curve[k];
@@ -534,7 +553,8 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
             const double y = (y_of(&v, c, i, scale_of(&v, k)) - least) / (most - least);
             taken[0] += x > 1.0 - wide && y < high;
             taken[1] += x < wide && y > 1.0 - high;
+            taken[2] += x > 1.0 - wide && y > 1.0 - high;
         }
-    v.corner = taken[0] > taken[1];
+    v.corner = taken[0] > 0 && taken[1] > 0 && taken[2] == 0 ? 2 : taken[0] > taken[1];
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "curve", write_inputs, &v, why);
 }

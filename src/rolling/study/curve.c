@@ -303,11 +303,13 @@ static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *
     if (r->over == RB_OVER_SPEED && !(r->from > 0.0 && r->to > 0.0))
         return rb_fail(why, RB_EINVAL, "curve over speed: expected from and to > 0, got %g and %g",
                        r->from, r->to);
-    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc))
+    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc) &&
+        !rb_rolling_law_depends_on_slip(&rc->friction))
         return rb_fail(why, RB_EINVAL,
-                       "curve over speed: no body is viscoelastic, so that nothing "
-                       "depends on the speed; "
-                       "add --relaxation-time and --relaxation-ratio, or --conductivity");
+                       "curve over speed: no body is viscoelastic, nothing is heated and friction "
+                       "does not depend on the slip, so that nothing depends on the speed; add "
+                       "--relaxation-time and --relaxation-ratio, --conductivity or "
+                       "--friction-law");
     return RB_OK;
 }
 

@@ -8,7 +8,8 @@ set tmargin at screen 0.9 + up
 set grid linecolor rgb '#dddddd' linewidth 0.6
 set zeroaxis linecolor rgb grey linewidth 0.6
 set offsets 0,0,graph 0.05,0
-if (key_above) set key left top Left reverse samplen 2.2 font key_font
+if (key_above == 1) set key left top Left reverse samplen 2.2 font key_font
+if (key_above == 2) set key right top samplen 2.2 font key_font
 if (!key_above) set key right bottom samplen 2.2 font key_font
 set xrange [x_from:x_to]
 if (above_0) set yrange [0:*]
