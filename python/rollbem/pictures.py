@@ -163,8 +163,19 @@ def tractions(solution: "Solution", figure: Any = None, ax: Any = None, label: "
 
 
 def curves(of: "Sequence[Curve]", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
-    """-Q/(mu P) over the creepage ratio; of several mu, -Q/P over the creepage."""
+    """-Q/(mu P) over the creepage ratio; of several mu, -Q/P over the creepage; over the speed the resistance to
+    rolling, or where no body relaxes the friction, of a given force the creepage."""
     figure, (axes,) = _figure(figure, 1, ax)
+    if of[0].over == "speed":
+        for curve in of:
+            name, title = _over_speed(curve, axes, label)
+        axes.grid(color="#dddddd", linewidth=0.6)
+        axes.set_xlabel(f"speed [{of[0]._in('mm/s')}]")
+        axes.set_ylabel(name)
+        if ax is None:
+            axes.set_title(f"{title}: P = {of[0].normal_load[-1]:.5g} {of[0]._in('N/mm')}")
+        axes.legend()
+        return figure
     before = sum(not line.get_label().startswith("_") and line.get_label() != "Carter" for line in axes.get_lines())
     several, over_creep = len(of) > 1, len(of) > 1 or of[0].over == "creep"
     for curve, colour in zip(of, (CURVES * (2 + (before + len(of)) // len(CURVES)))[before:]):
@@ -191,6 +202,24 @@ def curves(of: "Sequence[Curve]", figure: Any = None, ax: Any = None, label: "Op
                        f"a = {of[0].half_width:.4g} {of[0]._in('mm')}")
     axes.legend(loc="lower right")
     return figure
+
+
+def _over_speed(curve: "Curve", axes: Any, label: "Optional[str]") -> "tuple[str, str]":
+    """What the program draws over the speed, into axes: its name, and that of the picture."""
+    columns = curve.columns()
+    if np.nanmax(curve.hysteresis) > 0.0:  # bodies relax
+        name, y, key, title = "resistance to rolling  M/(PR)", curve.resistance_ratio, "resistance_ratio", "Rolling resistance"
+    elif np.nanmax(curve.creepage) > np.nanmin(curve.creepage):  # the force is given
+        name, y, key, title = "creepage ξ", curve.creepage, "creepage", "Rolling friction"
+    else:
+        name, y, key, title = "braking force −Q/(μP)", -curve.force_ratio, "force_ratio", "Rolling friction"
+    if key in curve.errors:
+        bar = np.abs(curve.errors[key])
+        axes.fill_between(curve.speed, y - bar, y + bar, alpha=0.25, linewidth=0, label="error")
+    axes.plot(curve.speed, y, label=f"μ {'≤' if 'branch' in columns else '='} {curve.mu:g}" if label is None else label)
+    if np.floor(np.log10(curve.speed.max())) > np.ceil(np.log10(curve.speed.min())):
+        axes.set_xscale("log")
+    return name, title
 
 
 def history(of: "History", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:

@@ -82,6 +82,20 @@ def test_several_curves():
     assert all(abs(falls.force_ratio * falls.mu * falls.normal_load - falls.tangential_load) < 1e-12 * falls.normal_load)
 
 
+def test_curves_over_the_speed_are_drawn_over_it():
+    falls = dict(support="halfplane", similar=True, load=1000.0, mu=0.3, friction_law="exponential", mu_fall=0.1, slip_scale=10.0)
+    rubber = dict(support="halfplane", similar=True, young=10.0, load=1.0, relaxation_time=0.01, relaxation_ratio=1.0, creep=0.0)
+    for options, ordinate, column in (
+        ({**falls, "creep": 0.01}, "braking force", lambda c: -c.force_ratio),
+        ({**falls, "force_ratio": -0.5}, "creepage", lambda c: c.creepage),
+        (rubber, "resistance", lambda c: c.resistance_ratio),
+    ):
+        curve = rollbem.curve(start=1e3, stop=5e3, points=3, over="speed", contact_elements=20, **options)
+        axes = curve.plot().axes[0]
+        assert axes.get_ylabel().startswith(ordinate) and axes.get_xlabel() == "speed [mm/s]"
+        assert (axes.get_lines()[0].get_xdata() == curve.speed).all() and (axes.get_lines()[0].get_ydata() == column(curve)).all()
+
+
 def test_half_a_material_is_said():
     half = dict(support="halfplane", young=2e5, load=100.0, contact_elements=24)
     for run in (rollbem.solve, lambda **o: rollbem.curve(points=2, **o), lambda **o: rollbem.sweep(mu=[0.1, 0.2], **o)):
