@@ -1312,9 +1312,8 @@ int rb_api_tractions(rb_api *a, int n, const double *x, const double *p, const d
     for (int k = 0; k < all.n; k++)
         if (all.given[k] && !rb_case_is_of_tractions(all.options[k].name))
             return rb_api_ended(a, rb_refuse(&a->why, all.options[k].name,
-                                             "%s: with given tractions no contact is solved; "
-                                             "leave it out",
-                                             all.options[k].name));
+                                             "with given tractions no contact is solved; "
+                                             "leave it out"));
     if (rb_api_resolve(a) < 0)
         return a->status;
     double *rows = n > 0 ? rb_alloc((size_t)n, 3) : NULL;
