@@ -114,7 +114,8 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
     void *before = rb_locale_begin();
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
-        const int speeds = c->n > 1 && c->speed[0] != c->speed[1];
+        const int speeds = c->n > 1 && c->speed[0] != c->speed[1],
+                  resists = speeds && rb_rolling_relaxes(curves->rc);
         /* The first of the points at the end of the curve at which nothing sticks. */
         const int rising = c->n < c->rising ? c->n : c->rising;
         int sliding = rising;
@@ -129,7 +130,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
-        if (speeds && rb_rolling_relaxes(curves->rc)) {
+        if (resists) {
             int most = 0; /* points without a solution, and bodies without a radius, have none */
             for (int i = 1; i < c->n; i++)
                 if (c->resistance_ratio[i] > c->resistance_ratio[most] ||
@@ -155,7 +156,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                         "%.3g\n",
                         widest, c->creepage[most], largest(c->n, c->kappa));
         }
-        if (curves->has_errors && speeds && rb_rolling_relaxes(curves->rc))
+        if (curves->has_errors && resists)
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
                     largest(c->n, curves->error[k].resistance_ratio));
         else if (curves->has_errors)
@@ -164,7 +165,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from coarser meshes)\n",
                 largest(c->n, curves->error[k].force_ratio),
                 largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
-        if (c->deviations && speeds && rb_rolling_relaxes(curves->rc))
+        if (c->deviations && resists)
             fprintf(out,
                     "  standard deviation of M/(P R) at most %.2g, from those of --tolerance\n",
                     largest(c->n, c->deviations->resistance_ratio));
@@ -223,7 +224,7 @@ typedef struct {
     const rb_report_curves *curves;
     rb_rolling_variable over; /* x */
     ordinate y;
-    int exponent; /* of the axis of xi, or of M/(P R); 0: of neither */
+    int exponent; /* of the axis of xi, x or y, or of M/(P R); 0: of neither */
     double from, to;
     int corner;  /* of the key: 2 right top, 1 left top, 0 right bottom */
     int above_0; /* nothing is below 0 but a sliver of a band */
@@ -241,10 +242,21 @@ static double x_of(const view *v, const rb_rolling_curve *c, int i)
                                       : c->creep_ratio[i];
 }
 
+/* 1: the ordinate is counted in powers of ten. */
+static int counts_in_powers(const view *v)
+{
+    return v->y == RESISTANCE || v->y == CREEPAGE;
+}
+
+static double y_unit(const view *v)
+{
+    return counts_in_powers(v) ? pow(10.0, v->exponent) : 1.0;
+}
+
 static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
 {
-    return v->y == RESISTANCE        ? c->resistance_ratio[i] / pow(10.0, v->exponent)
-           : v->y == CREEPAGE        ? c->creepage[i] / pow(10.0, v->exponent)
+    return v->y == RESISTANCE        ? c->resistance_ratio[i] / y_unit(v)
+           : v->y == CREEPAGE        ? c->creepage[i] / y_unit(v)
            : v->y == FORCE           ? -c->tangential_load[i]
            : v->y == FORCE_OVER_LOAD ? -c->force_ratio[i] * mu
                                      : -c->force_ratio[i];
@@ -317,7 +329,7 @@ static void write_labels(FILE *out, const view *v)
                        rb_unit_name(c->units, "N/mm"), at_first, RB_REPORT_NUMBER(half, 4),
                        rb_unit_name(c->units, "mm"));
     rb_report_let_bodies(out, v->rc, c->units);
-    if (v->y == RESISTANCE || v->y == CREEPAGE)
+    if (counts_in_powers(v))
         rb_report_let_text(out, "y_label", "%s%s",
                            v->y == CREEPAGE ? "creepage ξ" : "resistance to rolling  M/(PR)",
                            RB_REPORT_COUNTED_IN(v->exponent, ""));
@@ -408,9 +420,9 @@ static double last_row(const view *v, int k)
 
 static double y_scale(const view *v, int k)
 {
-    return v->y == RESISTANCE || v->y == CREEPAGE ? pow(10.0, -v->exponent)
-           : v->y == FORCE_OVER_LOAD              ? -scale_of(v, k)
-                                                  : -1.0;
+    return counts_in_powers(v)       ? pow(10.0, -v->exponent)
+           : v->y == FORCE_OVER_LOAD ? -scale_of(v, k)
+                                     : -1.0;
 }
 
 static double carter_scale(const view *v, int k)
@@ -478,9 +490,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     for (int k = 0; k < v->curves->n; k++)
         for (int i = 0; i < v->curves->curve[k].n; i++)
             most = fmax(most, half_width(v, k, i));
-    rb_report_let_band(out, v->curves->has_errors,
-                       most *
-                           (v->y == RESISTANCE || v->y == CREEPAGE ? pow(10.0, v->exponent) : 1.0),
+    rb_report_let_band(out, v->curves->has_errors, most * y_unit(v),
                        v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
     /* Carter's law; ratio and creepage are proportional */
     rb_report_let_whole(out, "is_carter", draws_carter(v));
@@ -524,12 +534,11 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
             largest =
                 fmax(largest, fabs(v.y == RESISTANCE ? c->resistance_ratio[i] : c->creepage[i]));
     }
-    v.exponent = speeds && v.y != RESISTANCE && v.y != CREEPAGE ? 0 : rb_report_exponent(largest);
+    v.exponent = speeds && !counts_in_powers(&v) ? 0 : rb_report_exponent(largest);
     v.from = INFINITY;
     v.to = -INFINITY;
     /* over the speed friction does not begin at 0 */
-    double least = speeds && v.y != RESISTANCE && v.y != CREEPAGE ? INFINITY : 0.0,
-           most = -INFINITY, lowest = 0.0;
+    double least = speeds && !counts_in_powers(&v) ? INFINITY : 0.0, most = -INFINITY, lowest = 0.0;
     for (int k = 0; k < v.curves->n; k++)
         for (int i = 0; i < v.curves->curve[k].n; i++) {
             const double x = x_of(&v, &v.curves->curve[k], i);
