@@ -168,7 +168,7 @@ def curves(of: "Sequence[Curve]", figure: Any = None, ax: Any = None, label: "Op
     figure, (axes,) = _figure(figure, 1, ax)
     if of[0].over == "speed":
         for curve in of:
-            name, title = _over_speed(curve, axes, label)
+            name, title = _over_speed(curve, len(of) > 1, axes, label)
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.set_xlabel(f"speed [{of[0]._in('mm/s')}]")
         axes.set_ylabel(name)
@@ -204,17 +204,17 @@ def curves(of: "Sequence[Curve]", figure: Any = None, ax: Any = None, label: "Op
     return figure
 
 
-def _over_speed(curve: "Curve", axes: Any, label: "Optional[str]") -> "tuple[str, str]":
-    """What the program draws over the speed, into axes: its name, and that of the picture."""
-    columns = curve.columns()
+def _over_speed(curve: "Curve", several: bool, axes: Any, label: "Optional[str]") -> "tuple[str, str]":
+    """What the program draws over the speed, one of several mu or alone, into axes: its name, and that of the picture."""
+    columns, scale = curve.columns(), curve.mu if several else 1.0
     if np.nanmax(curve.hysteresis) > 0.0:  # bodies relax
         name, y, key, title = "resistance to rolling  M/(PR)", curve.resistance_ratio, "resistance_ratio", "Rolling resistance"
     elif np.nanmax(curve.creepage) > np.nanmin(curve.creepage):  # the force is given
         name, y, key, title = "creepage ξ", curve.creepage, "creepage", "Rolling friction"
     else:
-        name, y, key, title = "braking force −Q/(μP)", -curve.force_ratio, "force_ratio", "Rolling friction"
+        name, y, key, title = f"braking force −Q/{'P' if several else '(μP)'}", -scale * curve.force_ratio, "force_ratio", "Rolling friction"
     if key in curve.errors:
-        bar = np.abs(curve.errors[key])
+        bar = np.abs((scale if key == "force_ratio" else 1.0) * curve.errors[key])
         axes.fill_between(curve.speed, y - bar, y + bar, alpha=0.25, linewidth=0, label="error")
     axes.plot(curve.speed, y, label=f"μ {'≤' if 'branch' in columns else '='} {curve.mu:g}" if label is None else label)
     if np.floor(np.log10(curve.speed.max())) > np.ceil(np.log10(curve.speed.min())):

@@ -94,6 +94,10 @@ def test_curves_over_the_speed_are_drawn_over_it():
         axes = curve.plot().axes[0]
         assert axes.get_ylabel().startswith(ordinate) and axes.get_xlabel() == "speed [mm/s]"
         assert (axes.get_lines()[0].get_xdata() == curve.speed).all() and (axes.get_lines()[0].get_ydata() == column(curve)).all()
+    both = rollbem.curve(start=1e3, stop=5e3, points=3, over="speed", contact_elements=20, creep=0.01, **{**falls, "mu": [0.2, 0.3]})
+    axes = both.plot().axes[0]
+    assert axes.get_ylabel() == "braking force −Q/P"
+    assert (axes.get_lines()[1].get_ydata() == -both[1].mu * both[1].force_ratio).all()
 
 
 def test_half_a_material_is_said():
