@@ -51,7 +51,9 @@ VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 LIB_SRC := $(filter-out src/program/cli/% src/program/mpi/%,$(wildcard src/*/*.c src/*/*/*.c))
 CLI_SRC := $(wildcard src/program/cli/*.c)
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/%.o)
-CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
+# the finite elements of `rollbem example` are a part of the program, not of the library
+FEM_OBJ := $(patsubst %.c,$(B)/%.o,$(wildcard examples/fem/*.c))
+CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o) $(FEM_OBJ)
 # the same program with another worker pool
 MPI_OBJ := $(filter-out %/cli/pool.o,$(CLI_OBJ)) $(B)/src/program/mpi/pool.o
 PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
@@ -250,6 +252,7 @@ $(B)/pictures.inc: $(wildcard src/program/report/pictures/*.gp)
 	$(Q)for f in $^; do sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/{"'"$$(basename $$f .gp)"'", "&\\n"},/' $$f; done > $@
 $(B)/src/program/report/gnuplot.o: $(B)/pictures.inc
 $(B)/src/program/report/gnuplot.o: CPPFLAGS += -I$(B)
+$(B)/src/program/cli/example.o $(FEM_OBJ): CPPFLAGS += -Iexamples
 # what `rollbem help WORD` finds in the docs
 $(B)/words.inc: tools/scripts/words.awk docs/glossary.md docs/faq.md
 	@mkdir -p $(@D)
@@ -279,6 +282,11 @@ $(B)/tests/%.o: tests/%.c
 $(B)/tests/%: $(B)/tests/%.o $(B)/tests/failing_alloc.o $(B)/librollbem.a
 	@echo "  LD  $@"
 	$(Q)$(CC) $(TEST_CFLAGS) -o $@ $(filter %.o,$^) $(B)/librollbem.a $(WRAP) $(TEST_LIBS)
+
+# the finite elements of the examples
+FEM_TESTS := $(patsubst %,$(B)/tests/test_%,fem fem_examples fem_reports fem_wall inside_fem)
+$(FEM_TESTS): $(FEM_OBJ)
+$(FEM_TESTS:=.o): CPPFLAGS += -Iexamples
 
 # the core by itself, with the libraries that it needs and no others
 CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*.c src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o

@@ -1,7 +1,7 @@
 /* Pictures and JSON of the finite-element examples: what gnuplot would read of a small
  * wall, bar and truss, against their meshes, displacements and steps. */
 #include "check.h"
-#include "program/report/report_fem.h"
+#include "fem/pictures.h"
 #include "small_wall.h"
 
 #include <ctype.h>
@@ -116,7 +116,7 @@ static int free_walls(void **state)
 static const char *draw_wall(const solved_wall *w, rb_report_canvas canvas, int steps)
 {
     FILE *out = tmpfile();
-    CHECK_OK(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &heard));
+    CHECK_OK(rb_fem_picture_wall(out, canvas, w->wall, steps, w->step, &heard));
     return written(out);
 }
 
@@ -271,13 +271,11 @@ TEST(wall_needs_steps_and_memory)
 {
     rb_message why = {.text = ""};
     FILE *out = tmpfile();
-    CHECK_STATUS(rb_report_picture_wall(out, page, walls[0].wall, 0, walls[0].step, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(rb_fem_picture_wall(out, page, walls[0].wall, 0, walls[0].step, &why), RB_EINVAL);
     assert_string_equal(why.text, "nothing to draw");
     for (int k = 0; k < 2; k++) {
         alloc_fail_after(k);
-        const rb_status s =
-            rb_report_picture_wall(out, page, walls[k].wall, 1, walls[k].step, &why);
+        const rb_status s = rb_fem_picture_wall(out, page, walls[k].wall, 1, walls[k].step, &why);
         alloc_succeed();
         CHECK_STATUS(s, RB_ENOMEM);
         assert_string_equal(why.text, "out of memory");
@@ -294,8 +292,8 @@ TEST(bar_and_truss_need_steps)
     const rb_fem_history history = {0};
     rb_message why[2] = {{.text = ""}, {.text = ""}};
     FILE *out = tmpfile();
-    CHECK_STATUS(rb_report_picture_bar(out, page, &model, &history, &why[0]), RB_EINVAL);
-    CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why[1]), RB_EINVAL);
+    CHECK_STATUS(rb_fem_picture_bar(out, page, &model, &history, &why[0]), RB_EINVAL);
+    CHECK_STATUS(rb_fem_picture_truss(out, page, &model, &history, &why[1]), RB_EINVAL);
     for (int k = 0; k < 2; k++)
         assert_string_equal(why[k].text, "nothing to draw");
     assert_int_equal(ftell(out), 0);
@@ -321,7 +319,7 @@ TEST(truss_is_drawn_by_its_slips)
                 k++;
             }
         FILE *out = tmpfile();
-        CHECK_OK(rb_report_picture_truss(out, page, &model, &history, &heard));
+        CHECK_OK(rb_fem_picture_truss(out, page, &model, &history, &heard));
         const char *script = written(out);
         check_says(script, names[layout]);
         assert_null(strstr(script, names[1 - layout]));

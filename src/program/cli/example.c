@@ -6,7 +6,7 @@
 #include "program/cli/wait.h"
 
 #include "base/io/io.h"
-#include "program/report/report_fem.h"
+#include "fem/pictures.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -132,7 +132,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
     for (int k = 0; k < r->history->steps; k++) {
         enum { COMMON = 7 };
         const rb_fem_step *s = &r->history->step[k];
-        const rb_report_fem_sums sums = rb_report_fem_sum(r->model, s);
+        const rb_fem_sums sums = rb_fem_sum(r->model, s);
         cli_value values[COMMON + 4] = {
             CLI_WHOLE(NULL, "step", k + 1),   CLI_TEXT("status", NULL, rb_status_text(s->status)),
             WHOLE("stick", s->stick),         WHOLE("slip", s->slip),
@@ -156,8 +156,8 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
                               rb_message *why)
 {
     const example_run *r = context;
-    return (r->is_bar ? rb_report_picture_bar : rb_report_picture_truss)(out, canvas, r->model,
-                                                                         r->history, why);
+    return (r->is_bar ? rb_fem_picture_bar : rb_fem_picture_truss)(out, canvas, r->model,
+                                                                   r->history, why);
 }
 
 static cli_exit run_history(const example_options *o)
@@ -225,7 +225,7 @@ static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const wall_run *run = context;
-    return rb_report_picture_wall(out, canvas, run->wall, run->steps, run->step, why);
+    return rb_fem_picture_wall(out, canvas, run->wall, run->steps, run->step, why);
 }
 
 static int is_interrupted(void *context)

@@ -1,7 +1,7 @@
 /* The wall's picture: its deformed front on the left, forces and contacts over time on
  * the right. */
 #include "program/report/internal.h"
-#include "program/report/report_fem.h"
+#include "fem/pictures.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -93,8 +93,8 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
                   rb_report_round_step((last->stick + last->slip + last->separated) / 4.0));
 }
 
-rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,
-                                 int steps, const rb_fem_wall_step *step, rb_message *why)
+rb_status rb_fem_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,
+                              int steps, const rb_fem_wall_step *step, rb_message *why)
 {
     const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
     wall_view v = {.f = {.mesh = mesh, .magnify = 1.0}, .steps = steps, .step = step};

@@ -191,6 +191,15 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
                      rb_fem_history *history, rb_message *why);
 void rb_fem_history_free(rb_fem_history *history);
 
+/* Corner, sums and maxima of one increment. */
+typedef struct {
+    double corner[2];             /* bar: displacement of its last node [mm] */
+    double normal, tangential[2]; /* sums of the reactions [N] */
+    double increment;             /* largest tangential increment of a contact [mm] */
+} rb_fem_sums;
+
+rb_fem_sums rb_fem_sum(const rb_fem_model *model, const rb_fem_step *step);
+
 /* ---- The wall ---------------------------------------------------------------------- */
 
 /* A dry masonry wall like the one of *Acary* 3: five courses in running bond, 12 blocks

@@ -2,7 +2,7 @@
  * displacements of its contact nodes at the end, and the quarter seen from the side, at
  * rest and at the end. */
 #include "program/report/internal.h"
-#include "program/report/report_fem.h"
+#include "fem/pictures.h"
 
 #include <math.h>
 
@@ -109,8 +109,8 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
     rb_report_let_text(out, "layout", "%s", v->layout);
 }
 
-rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
-                                  const rb_fem_history *history, rb_message *why)
+rb_status rb_fem_picture_truss(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
+                               const rb_fem_history *history, rb_message *why)
 {
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");

@@ -1,6 +1,6 @@
 /* The bar's picture: deformed mesh above, reactions below. */
 #include "program/report/internal.h"
-#include "program/report/report_fem.h"
+#include "fem/pictures.h"
 
 #include <math.h>
 
@@ -89,8 +89,8 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
     rb_report_let(out, "end_y", end[1]);
 }
 
-rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
-                                const rb_fem_history *history, rb_message *why)
+rb_status rb_fem_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
+                             const rb_fem_history *history, rb_message *why)
 {
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
