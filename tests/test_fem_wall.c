@@ -22,7 +22,7 @@ TEST(selection_is_by_difficulty)
     rb_fem_wall_free(wall);
 }
 
-/* The table of docs/fem.md; Acary's wall has 2064 contacts and 7212 unknowns. */
+/* The table of examples/fem/README.md; Acary's wall has 2064 contacts and 7212 unknowns. */
 TEST(walls_have_their_size)
 {
     static const struct {

@@ -32,7 +32,7 @@ FIGURE = re.compile(r"(?<![\w.])[-+]?(?:\d+\.\d+|\.\d+|\d+)(?:e[-+]?\d+)?(?![\w]
 COMMENT = re.compile(r"^ *<!-- figures: (.*?) -->\n", re.S | re.M)
 COMMENTS = re.compile(r"(?: *<!-- figures: (?:(?!-->).)*? -->\s*)+\Z", re.S)
 BLOCK = re.compile(r"(?:^ *\|.*\n?)+|(?:^ *[^ \n|].*\n?)+", re.M)  # a table or a paragraph
-OTHER_PAGES = ["README.md", "python/README.md", "docs/course/README.md", "docs/course/lecturers.md", "docs/site/index.md"]  # test_course reads the lessons
+OTHER_PAGES = ["README.md", "python/README.md", "examples/fem/README.md", "examples/fem/wall-study.md", "docs/course/README.md", "docs/course/lecturers.md", "docs/site/index.md"]  # test_course reads the lessons
 everything, turn = "ROLLBEM_TEST_ALL" in os.environ, int(os.environ.get("ROLLBEM_TEST_TURN", 0))
 
 
