@@ -179,7 +179,7 @@ def untested(page, text):
 
 def broken_courses(text):
     """The shorter courses of docs/course/lecturers.md that do not hold what their lessons assume."""
-    assumes = {row[1].split()[0].lstrip("["): re.findall(r"\d+", re.sub(r"\(.*?\)", "", row[2]).split(" or ")[0])
+    assumes = {row[1].split()[0].lstrip("["): re.findall(r"\d+", re.split(" or |;", re.sub(r"\(.*?\)", "", row[2]))[0])
                for row in (line.split("|")[1:] for line in re.findall(r"^\| \d+ \|.*", text, re.M))}
     for course in re.findall(r"^- (?:One|Two|Four) afternoon.*?(?=^- |\n\n)", text, re.M | re.S):
         have = re.findall(r"(?<![-\w/])\d+(?![-\w])", re.sub(r"\]\(.*?\)", "]", course))

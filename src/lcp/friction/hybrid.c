@@ -2,8 +2,8 @@
  *
  * Number of sweeps: a few show whether they help.  If they reduce the error well, most
  * contacts are in their final states and Newton's method needs one or two steps.  If they
- * do not, their result is a worse start than the given one (examples/fem/wall-study.md), and a hundred
- * sweeps would be wasted. */
+ * do not, their result is a worse start than the given one (examples/fem/wall-study.md), and a
+ * hundred sweeps would be wasted. */
 #include "lcp/friction/internal.h"
 
 #include <stdlib.h>
