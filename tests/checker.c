@@ -65,10 +65,13 @@ typedef struct {
     double *column[COLUMNS];
 } table;
 
-/* A body of the case; young = 0: rigid. */
+/* A body of the case; young = 0: rigid.  young, poisson: of the first layer, if it has some. */
 typedef struct {
     double young, poisson, radius, datum;
     int halfplane;
+    int layers;
+    double *layer;                   /* layers x thickness, young, poisson */
+    double base_young, base_poisson; /* below them; base_young = 0: rigid */
 } body;
 
 typedef struct {
@@ -216,22 +219,65 @@ static void table_free(table *t)
 
 /* ---- The case ---------------------------------------------------------------------- */
 
+/* The option `name` of a body. */
+static const char *of_body(const char *name, const char *suffix)
+{
+    static char key[40];
+    snprintf(key, sizeof key, "%s%s", name, suffix);
+    return key;
+}
+
+/* Thin discs: E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) stand for E and nu. */
+static void make_thin(double *young, double *poisson)
+{
+    *young *= (1.0 + 2.0 * *poisson) / pow(1.0 + *poisson, 2.0);
+    *poisson /= 1.0 + *poisson;
+}
+
+/* The rows of --layers, or the one of --layer-thickness. */
+static void read_layers(const json_t *inputs, const char *suffix, body *b)
+{
+    const char *own = word(inputs, of_body("layers", suffix)),
+               *path =
+                   json_is_true(json_object_get(inputs, "similar")) ? word(inputs, "layers") : own;
+    const double thickness = number(inputs, of_body("layer-thickness", suffix));
+    if (path[0]) {
+        const rows file = rows_from_file(path);
+        if (file.columns != 3)
+            violated("layers", "%s has %d columns", path, file.columns);
+        b->layers = file.columns == 3 ? file.rows : 0;
+        b->layer = file.x;
+        b->young = file.x[1];
+        b->poisson = file.x[2];
+    } else if (thickness > 0.0) {
+        b->layers = 1;
+        b->layer = doubles(3);
+        b->layer[0] = thickness;
+        b->layer[1] = b->young;
+        b->layer[2] = b->poisson;
+    }
+    const char *of = path == own ? suffix : "";
+    b->base_young = number(inputs, of_body("base-young", of));
+    b->base_poisson = number(inputs, of_body("base-poisson", of));
+    if (isnan(b->base_young))
+        b->base_young = 0.0;
+}
+
 static body body_of(const json_t *inputs, const char *suffix)
 {
-    char young[20], poisson[20], radius[20], datum[20], support[20];
-    snprintf(young, sizeof young, "young%s", suffix);
-    snprintf(poisson, sizeof poisson, "poisson%s", suffix);
-    snprintf(radius, sizeof radius, "radius%s", suffix);
-    snprintf(datum, sizeof datum, "datum%s", suffix);
-    snprintf(support, sizeof support, "support%s", suffix);
-    body b = {number(inputs, young), number(inputs, poisson), number(inputs, radius),
-              number(inputs, datum), strcmp(word(inputs, support), "halfplane") == 0};
+    body b = {.young = number(inputs, of_body("young", suffix)),
+              .poisson = number(inputs, of_body("poisson", suffix)),
+              .radius = number(inputs, of_body("radius", suffix)),
+              .datum = number(inputs, of_body("datum", suffix)),
+              .halfplane = strcmp(word(inputs, of_body("support", suffix)), "halfplane") == 0};
     if (isnan(b.young))
         b.young = 0.0;
+    read_layers(inputs, suffix, &b);
     if (b.young > 0.0 && strcmp(word(inputs, "plane"), "stress") == 0) {
-        /* thin discs: E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) stand for E and nu */
-        b.young *= (1.0 + 2.0 * b.poisson) / pow(1.0 + b.poisson, 2.0);
-        b.poisson /= 1.0 + b.poisson;
+        make_thin(&b.young, &b.poisson);
+        make_thin(&b.base_young, &b.base_poisson);
+        for (int k = 0; k < b.layers; k++)
+            make_thin(&b.layer[3 * k + 1], &b.layer[3 * k + 2]);
     }
     if (isnan(b.radius))
         b.radius = INFINITY;
@@ -991,22 +1037,16 @@ static void flamant(const contact *c, const table *t, double x, long double *un,
     }
 }
 
-/* Neither a layer nor a memory: what Flamant's integrals are for. */
-static int is_homogeneous(const json_t *inputs, const char *suffix)
+static int are_elastic_halfplanes(const contact *c)
 {
-    char layer[40], memory[40];
-    snprintf(layer, sizeof layer, "layer-thickness%s", suffix);
-    snprintf(memory, sizeof memory, "relaxation-time%s", suffix);
-    const json_t *time = json_object_get(inputs, memory);
-    return isnan(number(inputs, layer)) && !json_is_number(time) && !json_is_array(time);
+    return c->a.halfplane && (c->b.young == 0.0 || c->b.halfplane) && !has_memory(c->inputs, "") &&
+           !has_memory(c->inputs, "-b");
 }
 
 static void check_flamant(const contact *c, const table *t)
 {
     const double size = largest(t->n, t->column[UN]) + largest(t->n, t->column[UT]);
-    if (!c->a.halfplane || (c->b.young > 0.0 && !c->b.halfplane))
-        return;
-    if (!is_homogeneous(c->inputs, "") || !is_homogeneous(c->inputs, "-b"))
+    if (!are_elastic_halfplanes(c) || c->a.layers || c->b.layers)
         return;
     for (int i = 0; i < t->n; i++) {
         long double un, ut;
@@ -1016,6 +1056,174 @@ static void check_flamant(const contact *c, const table *t)
         expect("un by Flamant", t->column[UN][i], (double)un, 1e-11 * size);
         expect("ut by Flamant", t->column[UT][i], (double)ut, 1e-11 * size);
     }
+}
+
+/* ---- Waves: the displacements of bonded layers again ------------------------------- */
+
+/* Under exp(ikx), y into the body: u_x = i U/k, u_y = W/k, s_xy = i X, s_yy = Y.  The compliance
+ * C, (U, W) = -C (X, Y), of a half-plane. */
+static void halfplane_compliance(double young, double poisson, double C[2][2])
+{
+    const double direct = 2.0 * (1.0 - poisson * poisson) / young;
+    C[0][0] = C[1][1] = direct;
+    C[0][1] = C[1][0] = direct * (1.0 - 2.0 * poisson) / (2.0 * (1.0 - poisson));
+}
+
+/* From the compliance of the lower face of a slice to that of the upper one: the state there is
+ * exp(-A eta) times that below, by the series of a slice that is thin against the wave. */
+static void add_slices(double young, double poisson, double eta, double C[2][2])
+{
+    const double G = young / (2.0 * (1.0 + poisson)), c = poisson / (1.0 - poisson),
+                 m = (1.0 - 2.0 * poisson) / (2.0 * (1.0 - poisson));
+    const int slices = (int)ceil(eta / 0.5), terms = 16;
+    const double A[4][4] = {{0.0, -1.0, 1.0 / G, 0.0},
+                            {c, 0.0, 0.0, m / G},
+                            {2.0 * G / (1.0 - poisson), 0.0, 0.0, -c},
+                            {0.0, 0.0, 1.0, 0.0}};
+    double T[4][4] = {{0.0}}, power[4][4] = {{0.0}};
+    for (int i = 0; i < 4; i++)
+        T[i][i] = power[i][i] = 1.0;
+    for (int n = 1; n <= terms; n++) {
+        double next[4][4] = {{0.0}};
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++)
+                for (int k = 0; k < 4; k++)
+                    next[i][j] -= power[i][k] * A[k][j] * (eta / slices) / n;
+        memcpy(power, next, sizeof power);
+        for (int i = 0; i < 16; i++)
+            T[i / 4][i % 4] += power[i / 4][i % 4];
+    }
+    for (int n = 0; n < slices; n++) {
+        double up[2][2], tractions[2][2];
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) {
+                up[i][j] = T[i][2 + j] - T[i][0] * C[0][j] - T[i][1] * C[1][j];
+                tractions[i][j] = T[2 + i][2 + j] - T[2 + i][0] * C[0][j] - T[2 + i][1] * C[1][j];
+            }
+        const double det = tractions[0][0] * tractions[1][1] - tractions[0][1] * tractions[1][0];
+        for (int i = 0; i < 2; i++) {
+            C[i][0] = -(up[i][0] * tractions[1][1] - up[i][1] * tractions[1][0]) / det;
+            C[i][1] = -(up[i][1] * tractions[0][0] - up[i][0] * tractions[0][1]) / det;
+        }
+    }
+}
+
+/* What the surface of a body yields more at the wave number k > 0 than a half-plane of the first
+ * layer's material whose waves are cut off below 1/thickness. */
+static void wave_of_layers(const body *b, double k, double rest[2][2])
+{
+    double C[2][2] = {{0.0}}, first[2][2], above = 0.0;
+    int deepest = 0; /* what lies deeper than 45/k is not felt */
+    for (; deepest < b->layers && above < 45.0 / k; deepest++)
+        above += b->layer[3 * deepest];
+    if (above >= 45.0 / k)
+        halfplane_compliance(b->layer[3 * deepest - 2], b->layer[3 * deepest - 1], C);
+    else if (b->base_young > 0.0)
+        halfplane_compliance(b->base_young, b->base_poisson, C);
+    for (int j = deepest - 1; j >= 0; j--)
+        add_slices(b->layer[3 * j + 1], b->layer[3 * j + 2], fmin(k * b->layer[3 * j], 60.0), C);
+    halfplane_compliance(b->young, b->poisson, first);
+    for (int i = 0; i < 4; i++)
+        rest[i / 2][i % 2] = C[i / 2][i % 2] + expm1(-k * b->layer[0]) * first[i / 2][i % 2];
+}
+
+/* Adds the displacements of one body with layers; sign: -1 of B, whose tangent is mirrored. */
+static void add_layers(const body *b, double sign, const table *t, double *un, double *ut)
+{
+    static const double node[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                  0.9602898564975363},
+                        weight[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                    0.1012285362903763}; /* of Gauss */
+    const double *x = t->column[X], *h = t->column[H], *p = t->column[P], *q = t->column[Q],
+                 d = b->layer[0], wide = fmax(fabs(x[0]), fabs(x[t->n - 1])) + h[0];
+    double first[2][2], height = 0.0, rest[2][2];
+    halfplane_compliance(b->young, b->poisson, first);
+    for (int k = 0; k < b->layers; k++)
+        height += b->layer[3 * k];
+    /* the half-plane without the waves that are longer than d */
+    for (int j = 0; j < t->n; j++)
+        for (int i = 0; i < t->n; i++)
+            for (int end = 0; end < 2; end++) {
+                const double s = x[j] - x[i] + (end ? -0.5 : 0.5) * h[i], of = end ? -1.0 : 1.0,
+                             ln = 0.5 * s * log1p(d * d / (s * s)) + d * atan(s / d),
+                             turn = 0.5 * pi * fabs(s) - s * atan(s / d) +
+                                    0.5 * d * log1p(s * s / (d * d));
+                un[j] += of * (first[1][1] * ln * p[i] + sign * first[0][1] * turn * q[i]) / pi;
+                ut[j] += of * (first[0][0] * ln * q[i] - sign * first[0][1] * turn * p[i]) / pi;
+            }
+    for (double k = 1e-13 / height, to; k < 40.0 / d; k = to) {
+        to = fmin(2.0 * k, k + 3.0 / (2.0 * wide));
+        for (int g = 0; g < 8; g++) {
+            const double at = 0.5 * (k + to) + (g < 4 ? -0.5 : 0.5) * (to - k) * node[g % 4],
+                         part = 0.5 * (to - k) * weight[g % 4] / (pi * at);
+            double sum[2][2] = {{0.0}}; /* of p and q: cosines, sines */
+            for (int i = 0; i < t->n; i++) {
+                const double length = 2.0 * sin(0.5 * at * h[i]) / at, cosine = cos(at * x[i]),
+                             sine = sin(at * x[i]);
+                sum[0][0] += p[i] * length * cosine;
+                sum[0][1] += p[i] * length * sine;
+                sum[1][0] += q[i] * length * cosine;
+                sum[1][1] += q[i] * length * sine;
+            }
+            wave_of_layers(b, at, rest);
+            for (int j = 0; j < t->n; j++) {
+                const double c = cos(at * x[j]), s = sin(at * x[j]);
+                un[j] += part * (rest[1][1] * (c * sum[0][0] + s * sum[0][1]) +
+                                 sign * rest[0][1] * (s * sum[1][0] - c * sum[1][1]));
+                ut[j] += part * (rest[0][0] * (c * sum[1][0] + s * sum[1][1]) -
+                                 sign * rest[0][1] * (s * sum[0][0] - c * sum[0][1]));
+            }
+        }
+    }
+}
+
+static double mean(int n, const double *x)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++)
+        sum += x[i] / n;
+    return sum;
+}
+
+/* On an elastic base, and of a homogeneous body beside the layers, a constant is free (the datum).
+ */
+static void check_layers(const contact *c, const table *t)
+{
+    enum { MOST = 200 };
+    const body *const bodies[] = {&c->a, &c->b};
+    const double size = largest(t->n, t->column[UN]) + largest(t->n, t->column[UT]);
+    int is_free = 0;
+    if (!are_elastic_halfplanes(c) || !(c->a.layers || c->b.layers) || t->n > MOST ||
+        !isnan(c->period) || strcmp(word(c->inputs, "layer-base"), "smooth") == 0 ||
+        strcmp(word(c->inputs, "layer-base-b"), "smooth") == 0)
+        return;
+    double *u = doubles(4 * (size_t)t->n), *own = u + 2 * t->n;
+    for (int k = 0; k < 2; k++) {
+        contact alone = *c;
+        (k ? &alone.a : &alone.b)->young = 0.0;
+        is_free |= bodies[k]->young > 0.0 && (!bodies[k]->layers || bodies[k]->base_young > 0.0);
+        if (bodies[k]->layers)
+            add_layers(bodies[k], k ? -1.0 : 1.0, t, u, u + t->n);
+        for (int i = 0; i < t->n && !bodies[k]->layers && bodies[k]->young > 0.0; i++) {
+            long double un, ut;
+            flamant(&alone, t, t->column[X][i], &un, &ut);
+            u[i] += (double)un;
+            u[t->n + i] += (double)ut;
+        }
+    }
+    for (int i = 0; i < t->n; i++) {
+        u[i] += number(c->inputs, "interlayer-normal") * t->column[P][i];
+        u[t->n + i] += number(c->inputs, "interlayer-tangential") * t->column[Q][i];
+        own[i] = t->column[UN][i];
+        own[t->n + i] = t->column[UT][i];
+    }
+    for (int k = 0; k < 2; k++) {
+        double *want = u + k * t->n, *got = own + k * t->n,
+               shift = is_free ? mean(t->n, got) - mean(t->n, want) : 0.0;
+        for (int i = 0; i < t->n; i++)
+            expect(k ? "ut by waves" : "un by waves", got[i], want[i] + shift, 1e-9 * size);
+    }
+    free(u);
 }
 
 /* ---- Dissipation and error bars ---------------------------------------------------- */
@@ -1400,18 +1608,31 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
 
 /* ---- Stress ------------------------------------------------------------------------ */
 
-/* What follows from the tensor follows from the printed tensor. */
-static void check_stress(const json_t *inputs, const json_t *at)
+/* Poisson's ratio at a depth; NAN in a rigid base. */
+static double poisson_at(const body *b, double depth)
 {
+    double bond = 0.0;
+    for (int k = 0; k < b->layers; k++)
+        if (depth <= (bond += b->layer[3 * k]))
+            return b->layer[3 * k + 2];
+    return b->layers == 0 ? b->poisson : b->base_young > 0.0 ? b->base_poisson : NAN;
+}
+
+/* What follows from the tensor follows from the printed tensor. */
+static void check_stress(const json_t *root, const json_t *at)
+{
+    const json_t *inputs = json_object_get(root, "inputs");
     const int disc = strcmp(word(inputs, "plane"), "stress") == 0;
-    const double thickness = number(inputs, "layer-thickness");
-    const int rigid = isnan(number(inputs, "base-young"));
+    const int of_b = strcmp(word(root, "body"), "b") == 0;
+    body b = body_of(inputs, of_b ? "-b" : "");
+    if (of_b && b.young == 0.0) /* --similar */
+        b = body_of(inputs, "");
     for (size_t i = 0; i < json_array_size(json_object_get(at, "x_mm")); i++) {
         const double xx = entry(at, "sxx_MPa", i), yy = entry(at, "syy_MPa", i);
         const double zz = entry(at, "szz_MPa", i), xy = entry(at, "sxy_MPa", i);
-        const int below = entry(at, "y_mm", i) > thickness;
-        const double nu = disc ? 0.0 : number(inputs, below ? "base-poisson" : "poisson");
-        if (below && rigid && !isnan(xx))
+        const double depth = (of_b ? -1.0 : 1.0) * entry(at, "y_mm", i),
+                     inside = poisson_at(&b, depth), nu = disc ? 0.0 : inside;
+        if (isnan(inside) && !isnan(xx))
             violated("stress", "of point %zu in a rigid base is %g", i + 1, xx);
         if (isnan(xx))
             continue;
@@ -1460,6 +1681,7 @@ static void check_case(const json_t *root, const char *table_path, const char *s
     check_tangential_control(&c, controls);
     check_kinematics(&c, &t);
     check_flamant(&c, &t);
+    check_layers(&c, &t);
     check_heat(&c, &t, object);
     check_power(&c, &t, json_object_get(object, "friction_power_MPa"));
     check_resistance(&c, &t);
@@ -1505,9 +1727,9 @@ int main(int argc, char **argv)
     if (curve)
         check_curve(inputs, curve, strcmp(word(inputs, "normals"), "surface") == 0);
     if (json_object_get(root, "grid"))
-        check_stress(inputs, json_object_get(root, "grid"));
+        check_stress(root, json_object_get(root, "grid"));
     if (json_object_get(root, "points"))
-        check_stress(inputs, json_object_get(root, "points"));
+        check_stress(root, json_object_get(root, "points"));
     if (!json_object_get(root, "table") && !curve && !json_object_get(root, "grid") &&
         !json_object_get(root, "points"))
         violated("JSON", "has no table, curve or stress");

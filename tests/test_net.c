@@ -81,10 +81,12 @@ static const struct {
       {"smooth", "--layer-thickness 2 --layer-base smooth"},
       {"smooth-elastic",
        "--layer-thickness 2 --layer-base smooth --base-young 20000 --base-poisson 0.2"},
+      {"stack", "--layers layers.txt --base-young 20000 --base-poisson 0.2"},
       {"relaxing", "--relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5"},
       {"cover", "--cover-thickness 4"},
       {"cover-elastic", "--cover-thickness 4 --core-young 200000"},
       {"b-layer", "--layer-thickness-b 2"},
+      {"b-stack", "--layers-b layers.txt"},
       {"b-cover", "--cover-thickness-b 4 --core-young-b 200000"},
       {"b-relaxing", "--relaxation-time-b 0.01 --relaxation-ratio-b 1"}}},
     {"regime",
@@ -281,7 +283,7 @@ static const conflict conflicts[] = {
     {{"slip=second", "regime!steady"}, "only for steady rolling"},
     {{"slip=second", "mesh=fitted"}, "only for equal elements"},
     {{"slip=second", "mesh=punch"}, NULL}, /* steady and at rest */
-    {{"surface=layer|on-elastic|smooth*", "support!halfplane", NULL, "shape=default"},
+    {{"surface=layer|on-elastic|smooth*|stack", "support!halfplane", NULL, "shape=default"},
      HALFPLANE_ONLY},
     {{"surface=relaxing", "support=arc", "regime=steady"}, "cannot turn"},
     {{RELAXING, "support!halfplane", "regime=transient*|steps"}, HALFPLANE_ONLY},
@@ -292,9 +294,14 @@ static const conflict conflicts[] = {
     {{RELAXING, "regime=transient*|steps|static-history", "worn=scar"}, SMOOTH_GAP},
     {{RELAXING, "irregularity=flat"}, SMOOTH_GAP},
     {{RELAXING, "regime=static-history", "output=error"}, "has no error bars"},
-    {{"surface=b*", "body-b=rigid"}, "body B is rigid"},
+    {{"surface=b-layer|b-cover|b-relaxing", "body-b=rigid"}, "body B is rigid"},
+    {{"surface=b-stack", "body-b!rigid"}, "leave one of them out"}, /* its own moduli */
+    {{"surface=b-stack", "normals=surface"}, "with a rigid plane only"},
+    {{"surface=stack|b-stack", "plane=stress"}, "several layers are in plane strain"},
+    {{"surface=stack", "shape=other"}, "the first row of --layers says it"},
+    {{"surface=stack", "output=sweep"}, "the first row of --layers says it"},
     {{"surface=b-layer", "body-b=hub|arc"}, HALFPLANE_ONLY},
-    {{"surface=layer|on-elastic|smooth*", "body-b=arc"}, HALFPLANE_ONLY},
+    {{"surface=layer|on-elastic|smooth*|stack", "body-b=arc"}, HALFPLANE_ONLY},
     {{"surface=b-cover", "body-b=similar|dissimilar|cylinder|bore|arc"},
      "its core holds the wheel"},
     {{"surface=cover*", "support!hub"}, "its core holds the wheel"},
@@ -310,7 +317,7 @@ static const conflict conflicts[] = {
     {{"surface=cover*|b-cover", "shape=other"}, NULL},
     {{"surface=cover*|b-cover", "size=hierarchical"}, NULL},
     /* its points and grid, but not the picture, whose fringes take long */
-    {{"surface=layer|on-elastic|smooth*", "output=stress-fringes"}, NULL},
+    {{"surface=layer|on-elastic|smooth*|stack", "output=stress-fringes"}, NULL},
     {{"output=curve-plot", "mu=0"}, "no curve to draw at mu = 0"},
     {{"law=file", "mu=3"}, "the table of --friction-law has the coefficients"},
     {{"law=file", "mu=way", "regime=static-history|transient-history"},
@@ -330,7 +337,7 @@ static const conflict conflicts[] = {
     {{"tangential=free-axle", "regime!steady"}, "it needs steady rolling"},
     {{"tangential=free-axle", "mu=0"}, "only friction turns it"},
     {{"heat!none", RELAXING}, NULL}, /* two speeds */
-    {{"heat!none", "surface=layer|on-elastic|smooth*|b-layer|cover*|b-cover"},
+    {{"heat!none", "surface=layer|on-elastic|smooth*|stack|b-layer|b-stack|cover*|b-cover"},
      "it needs homogeneous elastic bodies"},
     {{"heat!none", "regime=static|increments|static-history"}, "friction heats bodies that roll"},
     {{"heat=unlike", "regime=transient*|steps"}, "both bodies must have the same temperature"},
@@ -351,6 +358,7 @@ static const conflict conflicts[] = {
     {{"period=given", "regime=steady|transient*|steps"}, "it needs bodies at rest"},
     {{"period=given", "support!halfplane"}, "it needs half-planes of one elastic material"},
     {{"period=given", "body-b=hub|arc"}, "it needs half-planes of one elastic material"},
+    {{"period=given", "surface=stack|b-stack"}, "it needs half-planes of one elastic material"},
     {{"period=given", "surface=relaxing|b-relaxing|cover*|b-cover"}, NULL},
     {{"period=given", "mesh=fitted|aligned"}, "equal elements only"},
     {{"period=given", "mesh=punch"}, NULL}, /* a wave is no table */
@@ -364,7 +372,7 @@ static const conflict conflicts[] = {
     {{"period=given", "shape=other"}, "displacements are those from the mean line"},
     {{"period=given", "output=stress*"}, "contacts that repeat themselves"},
     {{"period=given", "output=derivatives"}, "with a period not known"},
-    {{"bulk=both", "body-b=rigid"}, "a rigid body B is not strained"},
+    {{"bulk=both", "body-b=rigid", NULL, "surface!b-stack"}, "a rigid body B is not strained"},
     {{"bulk=both", "support!halfplane"}, "it needs half-planes of one elastic material"},
     {{"bulk=both", "body-b=hub|arc"}, "it needs half-planes of one elastic material"},
     {{"bulk=both", "surface!plain", "body-b!rigid"},
@@ -848,7 +856,7 @@ static int is_known(const char *name, const int *row)
     static const char *const ours[] = {"json",         "json.err",    "out.table", "table.err",
                                        "verdict",      "verdict.err", "flat.txt",  "worn.txt",
                                        "controls.txt", "gap.txt",     "mu.txt",    "points.txt",
-                                       "again",        "again.err"};
+                                       "layers.txt",   "again",       "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;
@@ -907,6 +915,7 @@ static void empty_folder(void)
     write_file("flat.txt", "0.8 0\n1 4e-5\n1.2 1e-4\n1.4 4e-5\n1.6 0\n");
     write_file("mu.txt", "-0.8 0.3\n-0.3 0.2\n0.1 0.25\n0.9 0.15\n");
     write_file("points.txt", "0 0.5\n0.3 0.8\n-1 1.2\n");
+    write_file("layers.txt", "0.4 90000 0.1\n0.3 30000 0.4\n1.3 60000 0.25\n");
 }
 
 /* ---- A row ------------------------------------------------------------------------- */

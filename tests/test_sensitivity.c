@@ -70,6 +70,9 @@ static const words regimes[] = {
     {{NARROW "load 20 layer-thickness 0.02 force-ratio 0.3"}},
     {{NARROW "approach 0.01 young-b 1e4 interlayer-normal 1e-4 shift 1e-4"}},
     {{"support hub load 500 mesh uniform zone 1.5 contact-elements 30 " ROLLING "creep-ratio 0.4"}},
+    /* its unit is a half-width with a third body */
+    {{"support halfplane mesh uniform zone 1.2 " ROLLING
+      "similar yes approach 0.015 creep-ratio 0.3 interlayer-normal 2e-6"}},
 };
 
 /* Five values around that of the case; 1: all have its zones. */

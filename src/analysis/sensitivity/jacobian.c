@@ -151,16 +151,25 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
     }
 }
 
+/* xi is in proportion to the half-width by formula, Hertz's or that with a third body or memory:
+ * d ln a/d ln P by differences of fourth order. */
 double rb_sensitivity_xi_by_load(const rb_rolling_model *model)
 {
+    static const double STEP = 1e-3;
     const rb_rolling_case *rc = model->rc;
     const rb_contact_problem *p = &model->problem;
     const double P = rb_contact_load(p, &model->state);
+    double half[2];
 
-    return !p->force_given && !p->load_given && rc->formulation != RB_STATIC &&
-                   !isnan(rc->creep_ratio) && P > 0.0
-               ? 0.5 * p->xi / P
-               : 0.0;
+    if (p->force_given || p->load_given || rc->formulation == RB_STATIC || isnan(rc->creep_ratio) ||
+        !(P > 0.0))
+        return 0.0;
+    for (int k = 0; k < 2; k++) {
+        const double step = (k + 1) * STEP;
+        half[k] = log(rb_rolling_contact_half_width(rc, P * exp(step)) /
+                      rb_rolling_contact_half_width(rc, P * exp(-step)));
+    }
+    return p->xi / P * (8.0 * half[0] - half[1]) / (12.0 * STEP);
 }
 
 /* The two controls: P or delta, Q (less what friction carries, and the axle's moment) or
