@@ -619,7 +619,7 @@ static void check_yield(const contact *c, const table *t)
     const double eps = tolerance(c), length = 10.0 * eps * length_scale(c, t);
     const double stress = eps * fmax(c->mu, 1e-3) * largest(t->n, t->column[P]) + fabs(k) * length;
     int yields = 0;
-    if (!c->plastic != isnan(tau))
+    if ((c->plastic == NULL) != (isnan(tau) != 0))
         violated("plastic_mm", "the column does not follow --yield-stress");
     for (int i = 0; i < t->n && c->plastic; i++) {
         const double yield = fmax(tau + k * yielded_at(c, t->n, i), 0.0);
