@@ -658,6 +658,7 @@ TEST(laws_without_memory)
 {
     rb_case_result r;
     held_case *c = solved(&regimes[7], NULL, 0.0, &r);
+    (void)c;
     assert_true(alloc_fail_each(factorise, &r.model) > 10);
     rb_case_result_free(&r);
 }
@@ -668,6 +669,7 @@ TEST(steps_are_refused)
     OWNED(rb_case_result) r;
     rb_sensitivity *s;
     held_case *c = solved(&w, NULL, 0.0, &r);
+    (void)c;
     CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &heard), RB_EINVAL);
     assert_null(s);
     assert_non_null(strstr(heard.text, "this case has several"));
