@@ -1062,6 +1062,14 @@ TEST(almost_no_friction)
     "exact --load 3111.08 --mu 0.18 --formulation steady --contact-elements 60 "
 #define FALLS "--friction-law exponential --mu-fall 0.12 --slip-scale 10 --speed 45000 "
 
+/* A list of solutions says from where to where a contact sticks, and nothing where it does not. */
+TEST(solutions_that_slide_have_no_stick_zone)
+{
+    CHECK_RUN(rollbem(RAIL FALLS "--creep 0.02 --all-solutions"), 0, err, " 0 stick, ");
+    assert_non_null(strstr(err, " slip, residual "));
+    assert_null(strstr(err, "nan"));
+}
+
 /* What is wrong with a friction law, in one line each. */
 TEST(bad_friction_laws_are_refused)
 {

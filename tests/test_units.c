@@ -539,19 +539,19 @@ TEST(wrong_units_are_named)
     check_refused("--units cgs", 64, "mm, si or inch");
     write_file("u.ini", "radius = 5 lightyears\n");
     check_refused("u.ini", 65, "u.ini:1: radius: expected a number in one of mm,");
-    /* a refusal in mm says so to one who speaks of metres */
+    /* one who speaks of metres is answered in metres */
     check_refused("--units si --support hub --radius 0.05 --cover-thickness 0.06", 64,
-                  "less than the radius, 50 mm, got 60 mm");
+                  "less than the radius, 0.05 m, got 0.06 m");
     check_refused("--units si --support halfplane --load 1e5 --formulation steady --force 9e4", 64,
-                  "--force: Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
+                  "--force: Q = 90000 N/m: friction carries at most mu P = 30000 N/m");
     /* the same where only the solution tells what is carried */
     check_refused(
         "--units si --support halfplane --approach 1e-5 --formulation steady --force 9e6", 64,
-        "--force: Q = 9000 N/mm: friction carries at most mu P = 79.2193 N/mm at this approach");
+        "--force: Q = 9e+06 N/m: friction carries at most mu P = 79219.3 N/m at this approach");
     check_refused("--units si --support halfplane --load 1e5 --formulation steady "
                   "--force 25000 --yield-stress 1e6",
                   64,
-                  "--force: Q = 25 N/mm: the interface yields, and carries at most 0.516437 N/mm");
+                  "--force: Q = 25000 N/m: the interface yields, and carries at most 516.437 N/m");
 }
 
 /* Whatever a refusal lists is read, and is of the quantity. */
@@ -649,6 +649,57 @@ TEST(units_have_several_spellings)
                "a decimal point, 1.5;");
     CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &heard), RB_EINVAL);
     CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &heard), RB_EINVAL);
+}
+
+/* Numbers of lines for people: only those with a unit, or which share that of the next one. */
+TEST(lines_say_their_numbers_in_the_system)
+{
+    static const struct {
+        rb_units system;
+        const char *line, *wanted;
+    } lines[] = {
+        {RB_UNITS_INCH, "zone: 76.2 mm is wider than 50.8 mm", "zone: 3 in is wider than 2 in"},
+        {RB_UNITS_INCH, "touches between -48.26 and 48.26 mm at most",
+         "touches between -1.9 and 1.9 in at most"},
+        {RB_UNITS_INCH, "1 of 3 from 25.4 to 50.8 mm; and more", "1 of 3 from 1 to 2 in; and more"},
+        {RB_UNITS_INCH, "the point (0, -25.4) mm lies", "the point (0, -1) in lies"},
+        {RB_UNITS_INCH, "A's 25.4 mm, got '25.4 mm' on 3, 25.4 mm.",
+         "A's 1 in, got '25.4 mm' on 3, 1 in."},
+        {RB_UNITS_INCH, "h.txt:4: Q = 350.253670493 N/mm, mu = 0.3",
+         "h.txt:4: Q = 2000 lbf/in, mu = 0.3"},
+        {RB_UNITS_INCH, "25.4 mm2, 3 MPa.mm^0.5, x2 25.4 mmm, 5 MJ/(m3 K)",
+         "0.03937 in2, 3 MPa.mm^0.5, x2 25.4 mmm, 5 MJ/(m3 K)"},
+        {RB_UNITS_SI, "Q = 70 N/mm at 5 MPa, -1e-3 mm", "Q = 70000 N/m at 5e+06 Pa, -1e-06 m"},
+        {RB_UNITS_MM, "zone: 76.2000001 mm", "zone: 76.2000001 mm"}};
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        char line[200];
+        for (int again = 0; again < 2; again++) { /* what is said stays */
+            snprintf(line, sizeof line, "%s", again ? lines[k].wanted : lines[k].line);
+            rb_unit_translate(lines[k].system, line, sizeof line);
+            assert_string_equal(line, lines[k].wanted);
+        }
+    }
+}
+
+TEST(refusals_are_in_the_units_of_the_case)
+{
+    static const char *const inch =
+        "--units inch --support halfplane --similar --young 30e6 --poisson "
+        "0.3 --radius 2 --load 1000 --mu 0.3 --quiet";
+    static const struct {
+        const char *more, *part;
+        int code;
+    } cases[] = {{"--force 400", "--force: Q = 400 lbf/in: friction carries", 64},
+                 {"--zone 3", "--zone: 3 in is wider than the radius, 2 in", 64},
+                 {"--moment 1e9", "at M/P = 1e+06 in", 64}};
+    char arguments[300];
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        snprintf(arguments, sizeof arguments, "%s %s", inch, cases[k].more);
+        check_refused(arguments, cases[k].code, cases[k].part);
+    }
+    snprintf(arguments, sizeof arguments,
+             "crack %s --crack-length 0.1in --paris 1e-12,3 --grow-to 0.05in", inch);
+    check_refused(arguments, 64, "length of the crack, 0.1 in, got 0.05 in");
 }
 
 RUN_TESTS(enter_folder, leave_folder)

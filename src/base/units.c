@@ -526,6 +526,101 @@ double rb_unit_stored(rb_units system, const char *unit, double x)
     return rb_unit_of_system(system, unit, &f) ? rb_unit_times(&f, x) : x;
 }
 
+/* ---- Lines for people -------------------------------------------------------------- */
+
+enum { LINE_NUMBERS = 32 };
+
+/* A number of a line; unit: where its unit begins, NULL: it has none, or shares the next one's. */
+typedef struct {
+    const char *at, *end, *unit;
+    size_t length; /* of the unit */
+    rb_unit_factor factor;
+    int converts;
+} line_number;
+
+/* The unit behind a number, " mm" or ") mm", as far as the system has another one for it. */
+static void find_unit(rb_units system, line_number *n)
+{
+    char unit[20];
+    const char *at = n->end + (*n->end == ')');
+    if (*at++ != ' ')
+        return;
+    n->length = strspn(at, "MPaNm/s12");
+    if (n->length == 0 || n->length >= sizeof unit || isalnum((unsigned char)at[n->length]) ||
+        (at[n->length] && strchr("^(", at[n->length])) ||
+        (at[n->length] == '.' && isalnum((unsigned char)at[n->length + 1])))
+        return;
+    snprintf(unit, sizeof unit, "%.*s", (int)n->length, at);
+    n->converts = rb_unit_of_system(system, unit, &n->factor);
+    n->unit = n->converts ? at : NULL;
+}
+
+/* Whether two numbers share the unit of the second one: "1 to 2 mm", "1 and 2 mm", "(1, 2) mm". */
+static int share_unit(const line_number *n, const line_number *next)
+{
+    static const char *const between[] = {" to ", " and ", ", "};
+    for (size_t k = 0; k < sizeof between / sizeof *between; k++)
+        if ((size_t)(next->at - n->end) == strlen(between[k]) &&
+            strncmp(n->end, between[k], strlen(between[k])) == 0)
+            return *between[k] == ' ' || *next->end == ')';
+    return 0;
+}
+
+/* The numbers of a line outside single quotes. */
+static int find_numbers(rb_units system, const char *line, line_number *n)
+{
+    int found = 0, quoted = 0;
+    for (const char *at = line; *at && found < LINE_NUMBERS;) {
+        const int before = at > line ? (unsigned char)at[-1] : ' ';
+        char *end = NULL;
+        const int begins = strchr(" (", before) != NULL;
+        if (*at == '\'' && (quoted || begins)) /* not that of "A's" */
+            quoted = !quoted;
+        if (!quoted && begins &&
+            isdigit((unsigned char)at[*at == '-' ? 1 + (at[1] == '.') : *at == '.']))
+            rb_read_number(at, &end);
+        if (end && end > at) {
+            n[found] = (line_number){.at = at, .end = end};
+            find_unit(system, &n[found++]);
+        }
+        at = end && end > at ? end : at + 1;
+    }
+    return found;
+}
+
+void rb_unit_translate(rb_units system, char *line, size_t size)
+{
+    static const double rounding = 1e-8; /* of a number with as many digits as messages have */
+    line_number n[LINE_NUMBERS];
+    char said[sizeof((rb_message *)0)->text] = "";
+    const char *from = line;
+    const int numbers = find_numbers(system, line, n);
+    for (int i = numbers - 2; i >= 0; i--)
+        if (!n[i].converts && n[i + 1].converts && share_unit(&n[i], &n[i + 1])) {
+            n[i].converts = 1;
+            n[i].factor = n[i + 1].factor;
+        }
+    for (int i = 0; i < numbers; i++) {
+        if (!n[i].converts)
+            continue;
+        const double x = rb_unit_over(&n[i].factor, rb_read_number(n[i].at, NULL));
+        rb_append(said, sizeof said, "%.*s%g", (int)(n[i].at - from), from,
+                  rb_largest_shown(x * (1.0 + rounding)));
+        from = n[i].end;
+        if (n[i].unit) {
+            char unit[20];
+            snprintf(unit, sizeof unit, "%.*s", (int)n[i].length, n[i].unit);
+            rb_append(said, sizeof said, "%.*s%s", (int)(n[i].unit - from), from,
+                      rb_unit_name(system, unit));
+            from = n[i].unit + n[i].length;
+        }
+    }
+    if (from > line) {
+        rb_append(said, sizeof said, "%s", from);
+        snprintf(line, size, "%s", said);
+    }
+}
+
 /* Why the text, whose unit is not one of the kind, is refused. */
 static rb_status refuse(const char *text, const char *name, const char *kind, rb_message *why)
 {

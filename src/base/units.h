@@ -32,6 +32,10 @@ double rb_unit_over(const rb_unit_factor *f, double x);
  * divides by it.  Returns 0, and a factor of 1, if nothing is to be converted. */
 int rb_unit_of_system(rb_units system, const char *unit, rb_unit_factor *f);
 
+/* A line for people in which numbers have units, "x = 3 mm", "from 1 to 2 mm", "(0, 3) mm",
+ * "Q = 4 N/mm": in those of the system.  What stands in single quotes was typed and stays. */
+void rb_unit_translate(rb_units system, char *line, size_t size);
+
 /* Units are products of powers of words with prefixes, as people type them: "MPa",
  * "kN/m", "N/mm^2", "mm3/(N m)", "mm3/Nm", "W/mK", "MPa.m^0.5", "ft/min".  Returns 1 if
  * `name` is one. */

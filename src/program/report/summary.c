@@ -288,10 +288,11 @@ void rb_report_solutions(FILE *out, const rb_rolling_solutions *all)
             all->n == 1 ? "" : "s that differ", all->starts, all->failed);
     for (int k = 0; k < all->n; k++) {
         const rb_rolling_solution *s = &all->solution[k];
-        fprintf(out,
-                "  %-3d Q/(mu P) = %.6g, %d stick, %d slip, stick %.5g ... %.5g %s, "
-                "residual %.2g\n",
-                k + 1, s->force_ratio, s->stick, s->slipping, s->stick_from, s->stick_to,
-                rb_unit_name(s->units, "mm"), s->residual);
+        fprintf(out, "  %-3d Q/(mu P) = %.6g, %d stick, %d slip, ", k + 1, s->force_ratio, s->stick,
+                s->slipping);
+        if (s->stick > 0)
+            fprintf(out, "stick %.5g ... %.5g %s, ", s->stick_from, s->stick_to,
+                    rb_unit_name(s->units, "mm"));
+        fprintf(out, "residual %.2g\n", s->residual);
     }
 }

@@ -643,7 +643,7 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
     if (rc->half_width >= reach)
         return rb_refuse(why, "half-width",
                          "expected less than the radius of either body, %g mm, "
-                         "got %g",
+                         "got %g mm",
                          reach, rc->half_width);
     return RB_OK;
 }

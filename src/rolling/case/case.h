@@ -249,7 +249,8 @@ enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 11 };
 void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes);
 void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value
- * is in a file, the message gets the file and the line.  Returns the status to report. */
+ * is in a file, the message gets the file and the line, and its numbers are said in the units of
+ * the case.  Returns the status to report. */
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why);
 /* Options of a command beside those of the case, two sets at most, which errors may be about too;
  * the set is borrowed.  NULL: no longer. */
