@@ -1,3 +1,4 @@
+/* Steps that may be interrupted: what each thread was told to ask. */
 #include "base/base.h"
 
 static _Thread_local rb_interrupt present;

@@ -1,3 +1,4 @@
+/* The name of the computation that runs, for progress displays. */
 #include "base/base.h"
 
 #include <stdatomic.h>

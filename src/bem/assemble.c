@@ -1,10 +1,15 @@
+/* The influence matrices H and G of constant boundary elements (B1): Somigliana's identity at the
+ * midpoint of each element, with the displacement and the traction constant on each element, is
+ * H u = G t.  A column of blocks belongs to an element, a row to a midpoint. */
 #include "bem/assemble.h"
 #include "bem/internal.h"
 #include "base/blas.h"
 
 #include <stdlib.h>
 
-/* Seen from one point (B3). */
+/* The 2 x 2 blocks of one element seen from the point p (B3): the integrals of Kelvin's kernels T
+ * (H) and U (G) of (B2) over the straight element.  They are elementary functions of the angle
+ * under which p sees the element and of the distances of its ends. */
 rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py, int self,
                                        rb_bem_material material)
 {
@@ -13,8 +18,11 @@ rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double
     rb_influence v;
 
     if (self) {
+        /* From its own midpoint: the principal value of T vanishes, which leaves the free term 1/2
+         * of (B1); the logarithm of U is integrated over both halves. */
         rb_integrate_self(&k, e.a, &v);
     } else {
+        /* From anywhere else: both kernels by the angles and distances of the two ends. */
         const rb_view_angles angles = rb_view_angles_of(&e, px, py);
         rb_integrate_H(&k, &angles, &v);
         rb_integrate_G(&k, e.a, &angles, &v);
@@ -29,6 +37,9 @@ rb_status rb_assembly_begin(const rb_bem_mesh *mesh, rb_bem_material material,
     double *x = rb_alloc((size_t)n, 2), *y = x ? x + n : NULL;
     rb_status s = RB_ENOMEM;
 
+    /* The collocation points: (B1) is asked at the midpoint of each element.  The logarithm
+     * of U counts distances in r0, the size of the mesh; the tractions around a body are in
+     * balance, and r0 cancels. */
     *assembly = (rb_assembly){.mesh = mesh, .material = material, .r0 = rb_bem_mesh_size(mesh)};
     for (int j = 0; j < n && x; j++) {
         x[j] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
@@ -45,6 +56,8 @@ void rb_assembly_end(rb_assembly *assembly)
     rb_points_free(&assembly->midpoints);
 }
 
+/* The columns of H (out[0], out[1]) and of G times a factor (out[2], out[3]) for the two directions
+ * of element j, at all midpoints at once; the kernels run over vectors of points. */
 void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor, double *const out[4])
 {
     const rb_bem_mesh *mesh = assembly->mesh;
@@ -66,6 +79,7 @@ rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, dou
         s = rb_fail(why, RB_EINVAL, "leading dimension %d: expected at least %d", ld, 2 * mesh->n);
     if (s != RB_OK)
         return s;
+    /* The columns of one element depend on no other element: each thread takes some elements. */
     s = rb_assembly_begin(mesh, material, &assembly);
     if (s != RB_OK)
         return rb_fail(why, s, "influence: out of memory for %d points", mesh->n);

@@ -1,5 +1,7 @@
-/* Condensation of a mixed system to its contact (B5), with the singular part of each load
- * in closed form if required (B10). */
+/* Condensation of a mixed system to its contact (B5): the displacements of the contact elements,
+ * and of the upstream one, under a unit traction on each contact element in turn are the columns of
+ * the flexibility F, w = w0 + F r.  The singular part of each load is in closed form if required
+ * (B10). */
 #include "bem/system.h"
 #include "bem/assemble.h"
 #include "bem/given.h"
@@ -375,6 +377,7 @@ static rb_status solve_loads(const rb_bem_system *s, const particular *p, double
     return status;
 }
 
+/* (B5), main steps: right-hand sides, solve, rotate into the contact frame. */
 static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, int subtract,
                           rb_bem_flexibility *f, rb_message *why)
 {
@@ -387,9 +390,12 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
     rb_phase("flexibility of the contact");
+    /* (B10) For each contact element the half-plane's solution of its load, whose logarithm at the
+     * ends of the element constant elements resolve badly. */
     particular p = {0};
     rb_status s = subtract ? particular_make(system, &p) : RB_OK;
 
+    /* A X = [Gc, b]: two unit tractions on each contact element, and the given values. */
     X = rb_large_alloc(ld, 2 * (size_t)n + 1);
     if (!X)
         s = RB_ENOMEM;
@@ -403,7 +409,10 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
         rb_fail(why, s, "condensation: interrupted");
     else if (s != RB_OK)
         rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
-    /* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
+    /* U(i, j), 2 x 2, is the displacement of element i due to the tractions on element j in x and
+     * y, the last 2 m rows of X.  In the contact frame of section 2, whose axes e_N and e_T belong
+     * to each element, F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X
+     * gives w0, the displacement due to what is given elsewhere. */
     for (int i = 0; s == RB_OK && i < m; i++) {
         const double *U = X + system->dofs - 2 * m + 2 * i, *w0 = U + 2 * (size_t)n * ld;
         const int element = first + i;

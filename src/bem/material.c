@@ -1,3 +1,5 @@
+/* Elastic constants: the shear modulus, and Poisson's ratio of plane strain; plane stress is plane
+ * strain with nu/(1 + nu). */
 #include "bem/internal.h"
 
 #include <math.h>

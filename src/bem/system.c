@@ -1,4 +1,7 @@
-/* Mixed problems (B4): assembly and LU. */
+/* Mixed problems (B4).  In each direction of each element the traction is given or the displacement
+ * is; the columns of what is unknown, of H for displacements and of -G for tractions, make the
+ * square matrix A, what is given the right-hand side b: A x = b, factored once.  Contact tractions
+ * come later: Gc keeps their columns of G. */
 #include "bem/system.h"
 #include "bem/assemble.h"
 #include "bem/incompressible.h"
@@ -20,7 +23,8 @@ static double dense_bytes(int n, int n_c)
     return sizeof(double) * (system + condensation);
 }
 
-/* Measured on wheels (docs/performance.md), and the contact's columns twice. */
+/* Of a boundary without its matrix.  Measured on wheels (docs/performance.md), and the contact's
+ * columns twice. */
 static double hierarchical_bytes(int n, int n_c)
 {
     return 6000.0 * n + sizeof(double) * 8.0 * n * n_c;
@@ -62,6 +66,9 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
     *factor = system->seconds_factor;
 }
 
+/* The unknowns are numbered around the body from the neighbour of the upstream element on.  Those
+ * of the contact and of the upstream element, which alone are wanted (B5), come last: back
+ * substitution gives them first and stops there. */
 static double *column_of(const rb_bem_system *s, int dof)
 {
     return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
@@ -117,6 +124,7 @@ static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
     return status;
 }
 
+/* A, b and Gc from the columns of H and G (B4). */
 static rb_status assemble(rb_bem_system *s)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -124,13 +132,17 @@ static rb_status assemble(rb_bem_system *s)
     rb_status status = rb_assembly_begin(mesh, s->material, &assembly);
     if (status != RB_OK)
         return status;
+    /* An unknown traction is counted in mu/h, so that the columns of G are of the size of those of
+     * H whatever the units: the condition of A does not depend on them. */
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
     int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++) {
-        /* The unknowns' columns into A, a contact element's loads into Gc. */
+        /* The unknowns' columns go into A: H where the displacement is unknown, -G where the
+         * traction is.  A contact element has both: its displacement in A, its traction as a load
+         * in Gc. */
         const rb_bem_condition *condition = mesh->condition + 2 * j;
         double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL}, G_factor = 1.0;
         if ((!s->A && condition[0] != RB_BEM_CONTACT) || rb_interrupted_in_loop(&stop))
@@ -147,11 +159,14 @@ static rb_status assemble(rb_bem_system *s)
         }
         rb_assembly_columns(&assembly, j, G_factor, (double *const[4]){H[0], H[1], G[0], G[1]});
     }
+    /* A bonded core and the given values, which move to the right-hand side. */
     status = stop ? RB_INTERRUPTED : s->bond ? add_bond(s, &assembly) : RB_OK;
     if (status == RB_OK)
         status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
-    if (status == RB_OK && s->A) { /* pressures that nothing fixes */
+    /* Of an incompressible body inside a contour that is held everywhere a uniform pressure moves
+     * nothing: a term on those columns fixes it. */
+    if (status == RB_OK && s->A) {
         rb_held_contours held;
         status = rb_held_contours_find(mesh, s->material, &held);
         for (int j = 0; held.count && j < s->dofs; j++)
@@ -162,11 +177,12 @@ static rb_status assemble(rb_bem_system *s)
     return status;
 }
 
-/* Its condition is not known. */
+/* A = L U, or its hierarchical form without the matrix, whose condition is not known. */
 static rb_status factor(rb_bem_system *s, rb_message *why)
 {
     if (s->A) {
-        /* A singular system is one whose condition leaves no digit. */
+        /* The 1-norm of A, for the estimate of its condition: a system is singular if that leaves
+         * no digit. */
         const lapack_int n = s->dofs;
         double norm = 0.0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \

@@ -1,3 +1,4 @@
+/* Friction problems in the HDF5 files of FCLib, read in a process of its own. */
 #include "base/io/io_fclib.h"
 
 #include "base/io/child.h"

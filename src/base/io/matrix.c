@@ -1,3 +1,4 @@
+/* Matrices in files: Matrix Market, dense and sparse. */
 #include "base/io/io.h"
 #include "base/io/readers.h"
 

@@ -1,3 +1,5 @@
+/* Files that are written whole or not at all: a file without a name, or with another one, gets its
+ * own when all is written. */
 #define _GNU_SOURCE /* O_TMPFILE, realpath */
 #include "base/io/io.h"
 

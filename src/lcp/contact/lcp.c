@@ -97,20 +97,28 @@ static void pivoted_form(const rb_contact_problem *p, const double *force_N, con
                   S_T = {K.S + (size_t)n * n, n};
     double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
 
+    /* Gap (K1) with r_T = o (gamma - mu r_N) put in: y_N = d_N + (F_NN - o F_NT mu) r_N + o F_NT
+     * gamma. */
     add_block(n, 1.0, F_NN, r_N, ld);
     add_bounded(n, -o, p->bound, F_NT, r_N, ld);
     add_block(n, o, F_NT, gamma, ld);
+    /* Slip (K2), S = A [F_TN F_TT]: l = o d_T + (o S_N - S_T mu) r_N + S_T gamma + nu. */
     add_block(n, o, S_N, r_N + n, ld);
     add_bounded(n, -1.0, p->bound, S_T, r_N + n, ld);
     add_block(n, 1.0, S_T, gamma + n, ld);
     add_diagonal(n, 1.0, nu + n, ld);
+    /* Coulomb (K3) on the other side of the cone: mu r_N - o r_T = 2 mu r_N - gamma. */
     for (int i = 0; i < n; i++)
         r_N[2 * n + i + (size_t)i * ld] += 2.0 * p->bound[i];
     add_diagonal(n, -1.0, gamma + 2 * n, ld);
+    /* The right-hand side: gaps of the undeformed bodies, and the slip that the rolling or the
+     * shift imposes, d_T + xi e_T. */
     for (int i = 0; i < n; i++) {
         lcp->b[i] = p->d_N[i];
         lcp->b[n + i] = o * (p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i]);
     }
+    /* (K6) A given force makes xi an unknown with a column of its own; a given load and a given
+     * force have a row each. */
     if (p->force_given)
         cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1, lcp->M + (size_t)xi_column(p) * ld + n, 1);
     if (p->load_given)
@@ -186,6 +194,8 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
+    /* Right-hand sides of gamma = S_T^-1 (lambda+ - M_other z_other - b), for each unknown and 1.
+     */
     memcpy(gamma, own, length * ld * sizeof *own);
     for (int j = 0; j <= size; j++)
         for (int i = 0; i < n; i++)
@@ -195,13 +205,17 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     for (size_t j = 0; j < length; j++)
         memcpy(S_T + j * length, gamma + j * ld + n, length * sizeof *S_T);
     memset(own, 0, length * ld * sizeof *own);
+    /* B = A F_TT of (K4) is S_T. */
     const int fault = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, size + 1, S_T, n, pivots, solved, n);
     if (fault != 0)
         return rb_arena_done(&scratch, rb_lapack_status(fault));
+    /* gamma, as it is now known, goes into all other rows. */
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma, size, solved,
                 n, 1.0, lcp->M, size);
     cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size, solved + length * ld, 1,
                 1.0, lcp->b, 1);
+    /* Unknowns and rows in Kwak's order: r_N, then lambda+ and lambda- of each element side by
+     * side. */
     for (int i = 0; i < size; i++) {
         const int row = kwak_place(p, i), is_gamma = i >= n && i < 2 * n;
         const double *from = is_gamma ? solved + i - n : lcp->M + i;
@@ -253,6 +267,8 @@ static void make_dimensionless(const rb_contact_problem *p, rb_contact_lcp *lcp)
         lcp->b[i] /= lcp->w_scale[i];
 }
 
+/* Pivoted form (K5) with its border (K6), the layer that yields (Y1), Kwak's form (K4) by a
+ * principal pivot of all that, the datum of the approach, and units of the contact. */
 rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
                                 double xi0, rb_contact_lcp *lcp, rb_message *why)
 {
@@ -301,6 +317,8 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
     return RB_OK;
 }
 
+/* From z back to tractions and motion: p = r_N, q = r_T = o (gamma - mu r_N) (K3), delta and xi by
+ * (K6), the plastic slip by (Y1). */
 void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
                             rb_contact_state *state)
 {

@@ -1,3 +1,4 @@
+/* The operator of a contact problem by its table of functions: matrices or products. */
 #include "lcp/contact/internal.h"
 
 void rb_contact_operator_free(rb_contact_operator *op)

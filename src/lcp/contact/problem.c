@@ -1,3 +1,4 @@
+/* The contact problem (K1)-(K3): its arrays, and forces and moment of tractions by sums (4.6). */
 #include "lcp/contact/internal.h"
 
 #include <cblas.h>

@@ -1,3 +1,6 @@
+/* The linear equations of given zones (5.2): in each element that touches the gap is zero, and its
+ * slip is zero or its friction at the bound.  Newton's method and the search for zones solve them.
+ */
 #include "lcp/contact/internal.h"
 
 #include <cblas.h>

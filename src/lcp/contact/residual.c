@@ -1,3 +1,5 @@
+/* The residual of a solution (4.4): how far tractions and motion, by themselves, violate the scaled
+ * (K1)-(K3); and the zones that they mean. */
 #include "lcp/contact/internal.h"
 
 #include <stdlib.h>

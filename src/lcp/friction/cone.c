@@ -1,3 +1,4 @@
+/* Coulomb's cone of one contact: projection on it, distances to the law, the measures of error. */
 #include "lcp/friction/internal.h"
 
 #include <math.h>

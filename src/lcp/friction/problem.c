@@ -1,3 +1,5 @@
+/* A friction problem: checks of its arrays, and facts about it that decide which solver is tried.
+ */
 #include "lcp/friction/internal.h"
 
 #include <float.h>

@@ -1,3 +1,4 @@
+/* Performance profiles (Dolan and More 2002). */
 #include "lcp/friction/friction.h"
 
 #include <math.h>

@@ -1,5 +1,9 @@
-/* The tableau of Lemke's method: pivots are collected, and a column is updated when it is
- * needed; the whole tableau can be computed again from the data and the basis. */
+/* The tableau of Lemke's method: basic variables = q + T (nonbasic variables), at first
+ * w = q + M z + d z0.  A pivot on T_rc exchanges a basic and a nonbasic variable and changes all of
+ * T by a product of rank one.  Most columns are not looked at between two pivots; so the pivots are
+ * collected in blocks, and a column x is brought up to date when it is needed: its entries in the
+ * rows of a block's pivots give s by the triangular system L s = x(rows), and behind the block it
+ * is x - U s.  The whole tableau can be computed again from the data and the basis. */
 #include "lcp/lemke/tableau.h"
 
 #include <cblas.h>

@@ -1,3 +1,4 @@
+/* The contact problem of a model as a file of FCLib. */
 #include "lcp/friction/friction.h"
 #include "program/report/report.h"
 

@@ -1,3 +1,5 @@
+/* The mesh of the potential contact: ends and midpoints of its elements, and the gap of the
+ * undeformed bodies there. */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

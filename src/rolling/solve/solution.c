@@ -1,3 +1,7 @@
+/* The solution of a model: from the tractions that the contact problem was solved for to what is
+ * printed.  Zones, forces (4.6), displacements and slip (12), moment and power (4.14), energy, heat
+ * (4.8), and at the end what proves it: the residual (4.4), recomputed from the tractions, and the
+ * balance of the support. */
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>
@@ -272,6 +276,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
                                                 model->varies, model->mesh.n, s);
 
     if (status == RB_OK) {
+        /* Forces by sums over the elements; the table of tractions, displacements, gap and slip. */
         s->formulation = model->rc->formulation;
         set_counts(model, s);
         s->free_creepage = NAN;
@@ -298,6 +303,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
                 status = rb_rolling_lever_power(model, s->hysteresis, &s->lever_power);
         }
     }
+    /* Patches of the contact, their edges and the largest pressure; what sticks. */
     s->support_balance = NAN;
     if (status == RB_OK)
         status = rb_rolling_set_patches(model, s);
@@ -307,6 +313,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
     }
     set_stick_limits(&model->mesh, s);
     s->nip_width = s->contact_to - s->contact_from;
+    /* Tabor's alpha = (3 pi/2) M/(P a). */
     s->hysteresis_factor =
         s->formulation == RB_STEADY && rb_rolling_relaxes(model->rc) && s->normal_load > 0.0
             ? 1.5 * M_PI * s->resistance_moment / (s->normal_load * s->half_width)
@@ -348,6 +355,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
                                                                                         : 0;
     }
     s->slip_violations = violations;
+    /* What friction turns into heat, from slip and friction alone. */
     s->dissipation =
         rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h, model->problem.e_T);
     if (s->formulation != RB_STATIC)
