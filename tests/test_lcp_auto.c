@@ -95,6 +95,25 @@ TEST(the_solver_is_said)
     }
 }
 
+/* Where the least entry of q ties, the path with ones may be the shortest, or visit 2^n bases: it
+ * is followed for a few pivots, and else left. */
+TEST(short_paths_are_taken_where_q_ties)
+{
+    static const struct {
+        int kind, n, most;
+    } cases[] = {{12, 40, 2}, {12, 150, 2}, {0, 40, 60}, {10, 101, 10}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        lcp_family f;
+        assert_int_equal(lcp_family_create(cases[k].kind, cases[k].n, &f), RB_OK);
+        SCRATCH double *z = malloc((size_t)f.n * sizeof *z);
+        rb_lcp_info info;
+        CHECK_OK(rb_lcp_solve(NULL, &(rb_lcp_mixed_problem){.M = &f.M, .q = f.q}, NULL, z, &info));
+        CHECK_TRUE(info.iters <= cases[k].most, "%s, order %d: %d pivots",
+                   lcp_families[cases[k].kind].name, f.n, info.iters);
+        lcp_family_free(&f);
+    }
+}
+
 /* Zones from coarser problems: their edges are a few points off, not a hundred. */
 TEST(coarser_problems_come_first)
 {

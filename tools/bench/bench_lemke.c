@@ -381,7 +381,7 @@ static void compare(int nc, int runs)
 
 /* Methods of others can go on for ever: each has a process of its own and so many
  * seconds. */
-enum { PATIENCE = 10 };
+enum { MOST_SECONDS = 10 };
 
 typedef struct {
     double seconds; /* least of the runs; INFINITY: not solved */
@@ -431,7 +431,7 @@ static timing own(const char *name, const lcp_family *f, const double *dense, do
     timing t = {INFINITY, name};
     const double since = cpu_seconds();
     rb_lcp_options opt = rb_lcp_defaults();
-    opt.seconds = PATIENCE;
+    opt.seconds = MOST_SECONDS;
     for (int runs = 0; goes_on(runs, since); runs++) {
         rb_lcp_info info = {0};
         const double start = cpu_seconds();
@@ -497,7 +497,7 @@ static double other(int k, const lcp_family *f, const double *dense)
         return INFINITY;
     const pid_t child = fork();
     if (child == 0) {
-        alarm(PATIENCE);
+        alarm(MOST_SECONDS);
         if (freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr))
             seconds = run_theirs(k, f, dense);
         _exit(write(ends[1], &seconds, sizeof seconds) != sizeof seconds);
@@ -524,8 +524,11 @@ static int claims, wrong_claims;
 
 enum { LARGEST_DENSE = 3300, LARGEST_OTHER = 1700 };
 
-/* A row: our own by name, auto over the best of them, and Siconos'.  unscaled: the problem
- * before rows and columns were multiplied, column: by what (NULL: by nothing). */
+/* A row: our own, auto over the best of them, and Siconos'.  The column of Lemke's tableau is with
+ * its matrix at hand, as Siconos has it; in the ratio it makes it from the sparse one, as auto
+ * does. unscaled: the problem before rows and columns were multiplied, column: by what (NULL: by
+ * nothing).
+ */
 static double family_row(const char *name, const lcp_family *f, const lcp_family *unscaled,
                          const double *column)
 {
@@ -541,7 +544,8 @@ static double family_row(const char *name, const lcp_family *f, const lcp_family
             wrong_claims += !solves(unscaled, z, column);
         }
     }
-    const double best = fmin(seconds[0], fmin(seconds[1], seconds[2]));
+    const double tableau = dense ? own("lemke", f, NULL, z).seconds : INFINITY;
+    const double best = fmin(tableau, fmin(seconds[1], seconds[2]));
     printf("| %s%s | %d |", name, column ? ", scaled" : "", f->n);
     for (int k = 0; k < 4; k++)
         cell(seconds[k]);
@@ -571,8 +575,9 @@ static lcp_family family_of(problem *p)
 }
 
 /* Microseconds of every solver on every family as it is and scaled by rows and columns,
- * and the largest ratio of auto to the best of our own.  only: one family, or NULL. */
-static void families(const char *only)
+ * and the largest ratio of auto to the best of our own.  only: one family, or NULL; order: the
+ * only one of it, or 0. */
+static void families(const char *only, int order)
 {
     static const int contacts[] = {20, 100, 400, 1066};
     double worst = 0.0;
@@ -584,13 +589,15 @@ static void families(const char *only)
         const char *name = kwak ? "kwak" : lcp_families[kind].name;
         for (int k = 0; k < 4 && (kwak || lcp_families[kind].n[k]); k++) {
             lcp_family f[2];
-            if (only && strcmp(only, name) != 0)
+            if ((only && strcmp(only, name) != 0) || (order && k))
                 continue;
             for (int scaled = 0; scaled < 2; scaled++) {
-                problem p = kwak ? make_kwak(contacts[k], MU, CREEP_RATIO) : (problem){0};
+                problem p = kwak ? make_kwak(order ? order / 3 : contacts[k], MU, CREEP_RATIO)
+                                 : (problem){0};
                 if (kwak)
                     f[scaled] = family_of(&p);
-                else if (lcp_family_create(kind, lcp_families[kind].n[k], &f[scaled]) != RB_OK)
+                else if (lcp_family_create(kind, order ? order : lcp_families[kind].n[k],
+                                           &f[scaled]) != RB_OK)
                     exit(70);
             }
             double *column = need((size_t)f[0].n, 1);
@@ -607,7 +614,8 @@ static void families(const char *only)
            claims, wrong_claims);
 }
 
-/* Alone with an argument, `families`: the families; with one more: that one. */
+/* Alone with an argument, `families`: the families; with one more: that one; with a third: of that
+ * order. */
 int main(int argc, char **argv)
 {
     const char *core = rb_blas_better_core();
@@ -619,6 +627,6 @@ int main(int argc, char **argv)
         compare(200, 31);
         compare(800, 3);
     }
-    families(argc > 2 ? argv[2] : NULL);
+    families(argc > 2 ? argv[2] : NULL, argc > 3 ? atoi(argv[3]) : 0);
     return 0;
 }

@@ -142,8 +142,8 @@ static void measure_packings(tally *t)
 static void measure_published(const char *root, tally *t)
 {
     static const char *const patterns[] = {"siconos/fc2d/*.dat", "siconos/fc3d/*.dat",
-                                           "fclib/*.hdf5"};
-    for (int k = 0; root && k < 3; k++) {
+                                           "fclib/*.hdf5", "packings/spheres4*.dat"};
+    for (int k = 0; root && k < (int)(sizeof patterns / sizeof *patterns); k++) {
         char pattern[1024];
         glob_t found;
         snprintf(pattern, sizeof pattern, "%s/%s", root, patterns[k]);

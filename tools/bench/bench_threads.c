@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* wait4 */
-/* Whole processes of the program with the threads that OpenMP takes by itself and with one:
- * processor time and elapsed time, medians of turns.  B: the build directory. */
+/* Whole processes of the program, processor time and elapsed time, medians of turns: with the
+ * threads that OpenMP takes by itself and with one; CONTACT's input file beside the same elements
+ * by options; with the table of all elements and without.  B: the build directory. */
 #include "rows.h"
 
 #include <gsl/gsl_sort.h>
@@ -49,7 +50,28 @@ static void run(const char *program, const char *options, int threads, double to
     took[1] = seconds_of(after) - seconds_of(before);
 }
 
-int main(void)
+static char program[400];
+
+/* Medians of the processor and of the elapsed seconds of both sides, which take turns. */
+static void measure(const char *const options[SIDES], const int threads[SIDES],
+                    double median[SIDES][CLOCKS])
+{
+    double t[SIDES][CLOCKS][TURNS], took[CLOCKS];
+
+    for (int turn = 0; turn < TURNS; turn++)
+        for (int side = 0; side < SIDES; side++) {
+            run(program, options[side], threads[side], took);
+            for (int c = 0; c < CLOCKS; c++)
+                t[side][c][turn] = took[c];
+        }
+    for (int side = 0; side < SIDES; side++)
+        for (int c = 0; c < CLOCKS; c++) {
+            gsl_sort(t[side][c], 1, TURNS);
+            median[side][c] = t[side][c][TURNS / 2];
+        }
+}
+
+static void threads_beside_one(void)
 {
     static const char *const cases[][2] = {
         {"half-plane, 60 elements", "--support halfplane --half-width 1 --formulation steady"},
@@ -58,27 +80,90 @@ int main(void)
                               "--contact-elements 100"},
         {"roll", "--support hub --cover-thickness 5 --young 5 --poisson 0.48 --radius 100 "
                  "--gap parabola --load 5 --formulation steady --creep 0"}};
-    char program[400];
 
-    snprintf(program, sizeof program, "%s/rollbem", getenv("B") ? getenv("B") : "build");
     printf("| | processor: default | one thread | ratio | elapsed: default | one thread | ratio |\n"
            "|---|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        double t[SIDES][CLOCKS][TURNS], took[CLOCKS];
-        for (int turn = 0; turn < TURNS; turn++)
-            for (int one = 0; one < SIDES; one++) {
-                run(program, cases[k][1], one, took);
-                for (int c = 0; c < CLOCKS; c++)
-                    t[one][c][turn] = took[c];
-            }
+        double t[SIDES][CLOCKS];
+        measure((const char *const[SIDES]){cases[k][1], cases[k][1]}, (const int[SIDES]){0, 1}, t);
         printf("| %s", cases[k][0]);
-        for (int c = 0; c < CLOCKS; c++) {
-            for (int one = 0; one < SIDES; one++)
-                gsl_sort(t[one][c], 1, TURNS);
-            const double all = t[0][c][TURNS / 2], one = t[1][c][TURNS / 2];
-            printf(" | %s | %s | %.2f", row_seconds(all).text, row_seconds(one).text, all / one);
-        }
+        for (int c = 0; c < CLOCKS; c++)
+            printf(" | %s | %s | %.2f", row_seconds(t[0][c]).text, row_seconds(t[1][c]).text,
+                   t[0][c] / t[1][c]);
         printf(" |\n");
     }
+}
+
+/* A row of two sides with one thread, by processor time. */
+static void compare(const char *name, int elements, const char *first, const char *second)
+{
+    double t[SIDES][CLOCKS];
+
+    measure((const char *const[SIDES]){first, second}, (const int[SIDES]){1, 1}, t);
+    printf("| %s | %s | %s | %s | %.2f |\n", name, row_count(elements).text,
+           row_seconds(t[0][0]).text, row_seconds(t[1][0]).text, t[0][0] / t[1][0]);
+}
+
+/* Carter's problem as an input file of CONTACT: n elements over 1.3 half-widths of 1. */
+static void write_contact(FILE *f, int n)
+{
+    const double h = 2.6 / n;
+
+    fprintf(f,
+            " 3  MODULE\n  203100\n  022020\n10001541\n 1000005\n   999 100 30 1 1e-5\n"
+            " 35780. -0.00024 0.0 0.0\n 0.3 0.3\n 0.0 %.10g 30000.\n 0.28 0.28 82000. 82000.\n"
+            " 3\n %d 1 -1.3 0.0 %.10g 200.0\n 1 1\n 0.001 0.0 0.0 0.0 0.0 0.0\n 0  MODULE\n",
+            h, n, h);
+}
+
+static void contact_beside_options(void)
+{
+    static const int elements[] = {800, 3200, 12800};
+
+    printf("\n| | elements | input file | options | ratio |\n|---|---|---|---|---|\n");
+    for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
+        char path[] = "/tmp/rollbem-bench-XXXXXX", file[100], options[200];
+        const int n = elements[k], descriptor = mkstemp(path);
+        FILE *f = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+        if (!f) {
+            fprintf(stderr, "bench_threads: no file in /tmp\n");
+            exit(1);
+        }
+        write_contact(f, n);
+        fclose(f);
+        snprintf(file, sizeof file, "contact %s", path);
+        snprintf(
+            options, sizeof options,
+            "--support halfplane --similar --half-width 1 --formulation steady --creep-ratio .4 "
+            "--mesh uniform --contact-elements %d --format brief",
+            n);
+        compare("CONTACT's input file beside options", n, file, options);
+        unlink(path);
+    }
+}
+
+static void table_beside_none(void)
+{
+    static const int elements[] = {1000, 10000, 100000};
+
+    printf("\n| | elements | with the table | without | ratio |\n|---|---|---|---|---|\n");
+    for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
+        char with[200], without[250];
+        snprintf(
+            with, sizeof with,
+            "--support halfplane --similar --half-width 1 --formulation steady --creep-ratio .4 "
+            "--mesh uniform --contact-elements %d",
+            elements[k]);
+        snprintf(without, sizeof without, "%s --format brief", with);
+        compare("table of all elements", elements[k], with, without);
+    }
+}
+
+int main(void)
+{
+    snprintf(program, sizeof program, "%s/rollbem", getenv("B") ? getenv("B") : "build");
+    threads_beside_one();
+    contact_beside_options();
+    table_beside_none();
     return 0;
 }

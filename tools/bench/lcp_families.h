@@ -48,6 +48,17 @@ static void lcp_murty(lcp_family *f, int n)
     }
 }
 
+/* Its transpose: triangular the other way round, so that ties are broken in the other order. */
+static void lcp_murty_upper(lcp_family *f, int n)
+{
+    lcp_begin(f, n);
+    for (int i = 0; i < n; i++) {
+        for (int j = i; j < n; j++)
+            lcp_add(f, i, j, i == j ? 1.0 : 2.0);
+        f->q[i] = -1.0;
+    }
+}
+
 /* Fathi (1979): the product of Murty's matrix and its transpose, symmetric and positive
  * definite. */
 static void lcp_fathi(lcp_family *f, int n)
@@ -268,6 +279,48 @@ static void lcp_copositive(lcp_family *f, int n)
         f->q[i] = floor(20.0 * lcp_random(f)) - 15.0;
 }
 
+/* P0 and no better: triangular without negative entries, zeros on a third of the diagonal, so that
+ * principal minors vanish, in a random order of the unknowns; a solution with zeros in both z and w
+ * is planted. */
+static void lcp_p0(lcp_family *f, int n)
+{
+    int *at = malloc((size_t)n * sizeof *at);
+    lcp_begin(f, n);
+    for (int i = 0; i < n; i++)
+        at[i] = i;
+    for (int i = n - 1; i > 0; i--) {
+        const int k = (int)(lcp_random(f) * (i + 1)), other = at[k];
+        at[k] = at[i];
+        at[i] = other;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            const double x = i == j                ? (i % 3 == 2 ? 0.0 : 1.0)
+                             : lcp_random(f) < 0.2 ? floor(3.0 * lcp_random(f))
+                                                   : 0.0;
+            lcp_add(f, at[i], at[j], x);
+            if (i % 3 != 2 && j % 3 == 0) /* w = M z + q with z = 1 there, 0 elsewhere */
+                f->q[at[i]] -= x;
+        }
+    for (int i = 0; i < n; i++)
+        f->q[at[i]] += i % 3 == 1 ? floor(2.0 * lcp_random(f)) : 0.0;
+    free(at);
+}
+
+/* Copositive, few entries: no negative ones, zeros on half of the diagonal. */
+static void lcp_copositive_sparse(lcp_family *f, int n)
+{
+    lcp_begin(f, n);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            lcp_add(f, i, j,
+                    i == j                ? (j % 2 ? 1.0 : 0.0)
+                    : lcp_random(f) < 0.1 ? 1.0 + floor(3.0 * lcp_random(f))
+                                          : 0.0);
+    for (int i = 0; i < n; i++)
+        f->q[i] = floor(20.0 * lcp_random(f)) - (i % 2 ? 15.0 : 0.0);
+}
+
 /* A bimatrix game with n/2 strategies a player: costs in [1, 2), A y - 1 >= 0, B'x - 1 >=
  * 0, up to the sums of x and y its equilibria. */
 static void lcp_game(lcp_family *f, int n)
@@ -293,7 +346,7 @@ typedef struct {
 } lcp_family_kind;
 
 static const lcp_family_kind lcp_families[] = {
-    {"murty", lcp_murty, {11, 50, 300}},
+    {"murty", lcp_murty, {11, 20, 50, 300}},
     {"fathi", lcp_fathi, {11, 50, 300}},
     {"kostreva", lcp_kostreva, {3, 30, 300}},
     {"obstacle", lcp_obstacle, {100, 1600, 10000}},
@@ -305,6 +358,9 @@ static const lcp_family_kind lcp_families[] = {
     {"degenerate", lcp_degenerate, {20, 100, 300}},
     {"copositive", lcp_copositive, {20, 100, 300}},
     {"game", lcp_game, {4, 20, 100, 600}},
+    {"murty, upper", lcp_murty_upper, {11, 20, 50, 300}},
+    {"P0", lcp_p0, {20, 100, 300}},
+    {"copositive, sparse", lcp_copositive_sparse, {20, 100, 300}},
 };
 enum { LCP_FAMILIES = sizeof lcp_families / sizeof lcp_families[0] };
 

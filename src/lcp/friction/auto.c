@@ -5,6 +5,8 @@
  * operations reach its share of L; L grows by the factor GROWTH from round to round.
  * When a member succeeds after T operations, L < GROWTH T / share, and the other members
  * have used at most their shares of this L, which bounds the total (docs/friction.md).
+ * Sweeps that stall early leave a first allowance which is less than what Newton's method needs
+ * from there.  It may then use more than its share once, before the others begin.
  * Operations are counted by formulas, so that the same problem always takes the same
  * path. */
 #include "lcp/friction/internal.h"
@@ -92,6 +94,7 @@ typedef struct {
     const stage *stages;
     double share;
     first_turn first; /* 0: it is not the first */
+    double on_stall; /* share of the first allowance where the first member has stalled; 0: share */
 } plan;
 
 enum { MEMBERS = 4 };
@@ -99,14 +102,14 @@ enum { MEMBERS = 4 };
 /* Some sweeps are cheap where W is there and solve most problems.  The global form has to
  * be condensed for them, which costs little for rigid bodies and for few contacts on a
  * large structure. */
-static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}},
-                                         {newton_after_sweeps, 0.7, {0, 0}},
-                                         {alternating, 1.0, {0, 0}},
-                                         {plain_sweeps, 0.1, {0, 0}}};
-static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}},
-                                          {sweeps, 0.7, {0, 0}},
-                                          {alternating, 1.0, {0, 0}},
-                                          {plain_sweeps, 0.1, {0, 0}}};
+static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}, 0.0},
+                                         {newton_after_sweeps, 0.7, {0, 0}, 1.5},
+                                         {alternating, 1.0, {0, 0}, 0.0},
+                                         {plain_sweeps, 0.1, {0, 0}, 0.0}};
+static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}, 0.0},
+                                          {sweeps, 0.7, {0, 0}, 0.0},
+                                          {alternating, 1.0, {0, 0}, 0.0},
+                                          {plain_sweeps, 0.1, {0, 0}, 0.0}};
 
 typedef struct {
     const plan *plan;
@@ -378,14 +381,19 @@ static rb_status run_auto(rb_friction_task *task, int variant)
             s = RB_ENOMEM;
     }
     double allowance = fmax(first->info.flops, 1.0);
+    /* Its sweeps have paused before their number was reached. */
+    int stalled = first->solver && first->info.iters < plans->first.iterations;
     for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(&p);) {
         left = 0;
         for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
             member *a = winner = &p.member[k];
+            const double share =
+                stalled && a->plan->on_stall > 0.0 ? a->plan->on_stall : a->plan->share;
             if (!a->over)
-                s = take_turn(&p, a, allowance * a->plan->share, NULL);
+                s = take_turn(&p, a, allowance * share, NULL);
             left += !a->over;
         }
+        stalled = 0;
         if (allowance > MOST_OPERATIONS)
             break;
         allowance *= GROWTH;

@@ -199,6 +199,41 @@ rb_status rb_lcp_assess(rb_lcp_info *info)
                          info->row + 1, info->scaled, info->iters, rb_plural(info->iters));
 }
 
+static rb_status fail_memory(lemke *l)
+{
+    const double n = l->n;
+    return rb_fail(&l->info->msg, RB_ENOMEM,
+                   "lcp: out of memory for a tableau of order %d (%.3g MB)", l->n,
+                   8e-6 * n * (n + 2.0));
+}
+
+/* Entries of a generic cover differ by this part: enough to make the paths of Murty and
+ * Fathi short, and little enough for other paths to stay as long as with ones. */
+static const double GENERIC = 0.0625;
+
+static void set_generic_cover(lemke *l)
+{
+    double *cover = l->weight + l->n + 1;
+    unsigned long long seed = 20260101;
+    for (int i = 0; i < l->n; i++)
+        cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
+    l->data.cover = cover;
+    l->work.ones = 0;
+}
+
+/* The path with ones is left: another one from the beginning, with a generic cover. */
+static rb_status begin_again(lemke *l)
+{
+    l->short_path = 0;
+    l->leaving = -1;
+    l->checked = l->rebuilt = l->info->iters;
+    l->info->ray_variable = -1;
+    l->info->msg.text[0] = '\0';
+    set_generic_cover(l);
+    rb_lcp_tableau_free(&l->t);
+    return rb_lcp_tableau_create(&l->data, &l->t) == RB_OK ? RB_OK : fail_memory(l);
+}
+
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
  * leaves or vanishes (solved) or nothing blocks the entering variable (secondary ray). */
 static rb_status follow_path(void *state)
@@ -255,6 +290,11 @@ static rb_status follow_path(void *state)
             }
             s = rb_lcp_fail_ray(l->info, &l->posed, entering, lemke_z0(l), l->other);
         }
+        if (l->short_path &&
+            (s == RB_RAY || s == RB_NUMERICAL || l->info->iters >= l->short_path)) {
+            s = begin_again(l);
+            return s == RB_OK ? follow_path(l) : s;
+        }
         if (s != RB_OK)
             return s;
         l->leaving = pivot(l, row, entering);
@@ -270,17 +310,12 @@ static rb_status follow_path(void *state)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status fail_memory(lemke *l)
+/* Pivots on the path with ones before a generic cover is taken, where the least entry of q ties:
+ * where that path is short it is often much the shorter one, and else so few cost little. */
+static int few_pivots(int n)
 {
-    const double n = l->n;
-    return rb_fail(&l->info->msg, RB_ENOMEM,
-                   "lcp: out of memory for a tableau of order %d (%.3g MB)", l->n,
-                   8e-6 * n * (n + 2.0));
+    return 4 + n / 16;
 }
-
-/* Entries of a generic cover differ by this part: enough to make the paths of Murty and
- * Fathi short, and little enough for other paths to stay as long as with ones. */
-static const double GENERIC = 0.0625;
 
 /* The least entry of q ties with another one within this part of it. */
 static const double SAME = 1e-6;
@@ -323,17 +358,11 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
         }
     }
     if (s == RB_OK) {
-        double *cover = l->weight + n + 1;
-        unsigned long long seed = 20260101;
-        const int generic =
-            l->task->generic == LCP_GENERIC ||
-            (l->task->generic == LCP_GENERIC_FOR_TIES && least_ties(n, l->data.p.q));
-        l->work.ones = !l->data.cover && !generic;
-        if (!l->data.cover && generic) {
-            for (int i = 0; i < l->n; i++)
-                cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
-            l->data.cover = cover;
-        }
+        l->work.ones = !l->data.cover;
+        if (l->work.ones && l->task->generic == LCP_GENERIC_FOR_TIES && least_ties(n, l->data.p.q))
+            l->short_path = few_pivots(n);
+        if (l->work.ones && l->task->generic == LCP_GENERIC)
+            set_generic_cover(l);
     }
     return s;
 }

@@ -39,6 +39,7 @@ typedef struct {
     double *image;           /* n x (n + 2): the whole tableau for the trace, or NULL */
     double start, refreshed; /* z0 after the first pivot, at the last refresh */
     int checked, rebuilt;    /* pivots at the last refresh, at the last rebuild */
+    int short_path; /* pivots at which the path with ones is left for a generic one; 0: never */
     rb_lcp_info *info;
 } lemke;
 

@@ -29,7 +29,7 @@ static const double MANY = 0.1;
 /* Newton's method goes first on sparse matrices whose diagonal is positive: from the
  * first order on where they are those of discretised inequalities, which it solves
  * always, from the second one on elsewhere; so many systems are its first turn. */
-enum { SURE_FROM = 200, HOPE_FROM = 60, SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
+enum { SURE_FROM = 200, HOPE_FROM = 24, SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 
 /* From this order on it is looked whether rows are dominated by their diagonal. */
 enum { DOMINATED_FROM = 200 };

@@ -16,44 +16,47 @@ static const double STILL = 4.0 * DBL_EPSILON;
 enum { TRIALS = 12 };
 /* ... as long as the ratio changes by this part of it. */
 static const double STALLS = 1e-3;
+/* A ratio beyond this that would not fall far enough in the trials that are left, if it went on
+ * falling as in the last one, is given up: these steps become smaller, not larger. */
+static const double FAR = 10.0;
 
-/* The largest sum_j |M_ij| unit_j / (M_ii unit_i) over the others j, of the columns of M'.
+/* The largest sum_j |M_ij| unit_j / (M_ii unit_i) over the others j; own: the diagonal, positive.
  * next: the mean of unit and of these sums over M_ii: towards those units in which the
  * ratio is the least (Perron). */
-static double domination(const rb_sparse *rows, const double *unit, double *next)
+static double domination(const rb_sparse *M, const double *own, const double *unit, double *next)
 {
     double ratio = 0.0;
-    for (int i = 0; i < rows->cols; i++) {
-        double own = 0.0, others = 0.0;
-        for (int k = rows->p[i]; k < rows->p[i + 1]; k++)
-            if (rows->i[k] == i)
-                own = rows->x[k];
-            else
-                others += fabs(rows->x[k]) * unit[rows->i[k]];
-        if (!(own > 0.0))
-            return INFINITY;
-        ratio = fmax(ratio, others / (own * unit[i]));
-        next[i] = 0.5 * (unit[i] + others / own);
+    for (int i = 0; i < M->rows; i++)
+        next[i] = 0.0;
+    for (int j = 0; j < M->cols; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            if (M->i[k] != j)
+                next[M->i[k]] += fabs(M->x[k]) * unit[j];
+    for (int i = 0; i < M->rows; i++) {
+        const double others = next[i];
+        ratio = fmax(ratio, others / (own[i] * unit[i]));
+        next[i] = 0.5 * (unit[i] + others / own[i]);
     }
     return ratio;
 }
 
-/* 1: in no units are the rows dominated: the least ratio that units can give is the spectral
- * radius of the matrix of |M_ij| / M_jj, j other than i, and that is not below the least sum of a
- * column (Collatz and Wielandt). */
-static int is_hopeless(const rb_sparse *M)
+/* own: n, the diagonal.  1: it is not positive, or in no units are the rows dominated: the least
+ * ratio that units can give is the spectral radius of the matrix of |M_ij| / M_jj, j other than i,
+ * and that is not below the least sum of a column (Collatz and Wielandt). */
+static int is_hopeless(const rb_sparse *M, double *own)
 {
     double least = INFINITY;
-    for (int j = 0; j < M->cols && least > DOMINATED; j++) {
-        double own = 0.0, others = 0.0;
+    for (int j = 0; j < M->cols; j++) {
+        double others = 0.0;
+        own[j] = 0.0;
         for (int k = M->p[j]; k < M->p[j + 1]; k++)
             if (M->i[k] == j)
-                own = M->x[k];
+                own[j] = M->x[k];
             else
                 others += fabs(M->x[k]);
-        if (!(own > 0.0))
+        if (!(own[j] > 0.0))
             return 1;
-        least = fmin(least, others / own);
+        least = fmin(least, others / own[j]);
     }
     return least > DOMINATED;
 }
@@ -63,30 +66,33 @@ rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options
 {
     const lcp_matrix given = {.n = p->M->rows, .sparse = p->M};
     const int n = given.n;
-    if (is_hopeless(p->M))
-        return RB_SINGULAR;
     rb_arena scratch = {0};
     lcp_scale scale = {0};
     rb_sparse rows = {0}; /* M', whose columns are M's rows */
     double *unit = rb_arena_doubles(&scratch, (size_t)n, 1),
-           *next = rb_arena_doubles(&scratch, (size_t)n, 1);
-    rb_status s = scratch.failed ? RB_ENOMEM : rb_sparse_transpose(p->M, &rows);
+           *next = rb_arena_doubles(&scratch, (size_t)n, 1),
+           *own = rb_arena_doubles(&scratch, (size_t)n, 1);
+    rb_status s = scratch.failed ? RB_ENOMEM : is_hopeless(p->M, own) ? RB_SINGULAR : RB_OK;
     double ratio = INFINITY;
     for (int i = 0; s == RB_OK && i < n; i++)
         unit[i] = 1.0;
     for (int k = 0; s == RB_OK && k < TRIALS && !(ratio <= DOMINATED); k++) {
         if (k == 1) /* columns may have units of their own: begin with those of the diagonal */
             for (int i = 0; i < n; i++)
-                next[i] = 1.0 / rb_sparse_diagonal(p->M, i);
+                next[i] = 1.0 / own[i];
         if (k > 0)
             memcpy(unit, next, (size_t)n * sizeof *unit);
         const double last = ratio;
-        ratio = domination(&rows, unit, next);
-        if (isinf(ratio) || (k > 1 && fabs(ratio - last) <= STALLS * last))
+        ratio = domination(p->M, own, unit, next);
+        if (!isfinite(ratio) || (k > 1 && fabs(ratio - last) <= STALLS * last))
+            break;
+        if (k > 1 && ratio > FAR && ratio * pow(ratio / last, TRIALS - 1 - k) > DOMINATED)
             break;
     }
     if (s == RB_OK && !(ratio <= DOMINATED))
         s = RB_SINGULAR;
+    if (s == RB_OK)
+        s = rb_sparse_transpose(p->M, &rows);
     if (s == RB_OK) {
         const int sweeps = ratio > 0.0 ? 4 + (int)(log(DBL_EPSILON) / log(ratio)) : 4;
         const int most = opt->max_iters && opt->max_iters < sweeps ? opt->max_iters : sweeps;
@@ -99,12 +105,10 @@ rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options
         while (s == RB_OK && change > STILL * size && info->iters < most) {
             change = size = 0.0;
             for (int i = 0; i < n; i++) {
-                double w = p->q[i], own = 1.0;
-                for (int k = rows.p[i]; k < rows.p[i + 1]; k++) {
+                double w = p->q[i];
+                for (int k = rows.p[i]; k < rows.p[i + 1]; k++)
                     w += rows.x[k] * z[rows.i[k]];
-                    own = rows.i[k] == i ? rows.x[k] : own;
-                }
-                const double x = fmin(fmax(z[i] - w / own, rb_lcp_lower(p->lower, i)),
+                const double x = fmin(fmax(z[i] - w / own[i], rb_lcp_lower(p->lower, i)),
                                       rb_lcp_upper(p->upper, i));
                 change = fmax(change, fabs(x - z[i]) / unit[i]);
                 size = fmax(size, fabs(x) / unit[i]);
