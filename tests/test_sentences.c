@@ -71,6 +71,13 @@ static const sentence notes[] = {
     /* what gives way is a third body, and no strain of the bodies */
     {"strains", "The strains are large", PLANE "--mu 0 --approach 2.5",
      PLANE "--mu 0 --approach 2.5 --interlayer-normal 0.1"},
+    {"strains", "far beyond linear elasticity (bulk strain = 0.43)",
+     STEEL "--radius 100 --load 100 --mu 0.3 --bulk-stress 1e5",
+     STEEL "--radius 100 --load 100 --mu 0.3 --bulk-stress 1e4"},
+    {"large-tilt",
+     "The tilt of 0.2 is not a small angle: expect errors of the order of its square, 0.04",
+     STEEL "--radius 100 --load 100 --mu 0.3 --tilt 0.2",
+     STEEL "--radius 100 --load 100 --mu 0.3 --tilt 0.09"},
     {"thin-and-strained", "is compressed by 10 % of its thickness",
      LAYER "--layer-thickness 0.5 --load 20", LAYER "--layer-thickness 0.5"},
     {"flat-layer",
@@ -150,6 +157,11 @@ static const sentence notes[] = {
     {"strained-creepage", "the bulk stresses shift every creepage by 0.000433",
      STEEL "--radius 100 --load 100 --mu 0.3 --creep 0 --bulk-stress 100 " ROLL,
      STEEL "--radius 100 --load 100 --mu 0.3 --creep 0 " ROLL},
+    {"strained-creepage", "the bulk stresses shift every creepage by 0.000433",
+     STEEL "--radius 100 --load 100 --mu 0.3 --creep 0 --bulk-stress 100 --formulation transient "
+           "--distance 1",
+     STEEL
+     "--radius 100 --load 100 --mu 0.3 --creep 0 --bulk-stress 100 --bulk-stress-b 100 " ROLL},
     {"slips-both-ways", "The contact slips in both directions",
      STEEL "--radius 100 --max-pressure 1000 --mu 0.5 --force-ratio 0.6 --bulk-stress-b 1250",
      STEEL "--radius 100 --max-pressure 1000 --mu 0.5 --force-ratio 0.6 --bulk-stress-b 500"},

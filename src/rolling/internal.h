@@ -14,9 +14,10 @@
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
 /* 1: a bulk stress is given; and the strain along the surface that it makes in A less that in B
- * (U1): displacements differ by so much times x. */
+ * (U1): displacements differ by so much times x; and the larger of both, without its sign. */
 int rb_rolling_is_strained(const rb_rolling_case *rc);
 double rb_rolling_bulk_strain(const rb_rolling_case *rc);
+double rb_rolling_largest_bulk_strain(const rb_rolling_case *rc);
 /* 1: load, approach, half-width, largest pressure or the load of an ellipse; 0: approach = R/2. */
 int rb_rolling_pressing_is_given(const rb_rolling_case *rc);
 /* Forgets the half-width, largest pressure or wheel load that were given: load or approach are set

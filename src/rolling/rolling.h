@@ -367,7 +367,7 @@ typedef struct {
 rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
                                                const rb_rolling_solution *s);
 /* One more, of a kind of the caller's from RB_ROLLING_OWN_NOTES on. */
-enum { RB_ROLLING_OWN_NOTES = 36 };
+enum { RB_ROLLING_OWN_NOTES = 37 };
 void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text);
 
 /* Adds the notes of a row to those on all rows (rb_rolling_study_notes). */

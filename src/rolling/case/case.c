@@ -358,14 +358,28 @@ int rb_rolling_is_strained(const rb_rolling_case *rc)
     return rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0;
 }
 
+/* The strain of A, and that of B, by its bulk stress. */
+static void bulk_strains(const rb_rolling_case *rc, double strain[2])
+{
+    const int any = rb_rolling_is_strained(rc);
+    strain[0] = any ? rc->bulk_stress * compliance(rb_rolling_material(rc, &rc->a)) : 0.0;
+    strain[1] = any && rc->elastic_b
+                    ? rc->bulk_stress_b * compliance(rb_rolling_material(rc, &rc->b))
+                    : 0.0;
+}
+
 double rb_rolling_bulk_strain(const rb_rolling_case *rc)
 {
-    return rb_rolling_is_strained(rc)
-               ? rc->bulk_stress * compliance(rb_rolling_material(rc, &rc->a)) -
-                     (rc->elastic_b
-                          ? rc->bulk_stress_b * compliance(rb_rolling_material(rc, &rc->b))
-                          : 0.0)
-               : 0.0;
+    double strain[2];
+    bulk_strains(rc, strain);
+    return strain[0] - strain[1];
+}
+
+double rb_rolling_largest_bulk_strain(const rb_rolling_case *rc)
+{
+    double strain[2];
+    bulk_strains(rc, strain);
+    return fmax(fabs(strain[0]), fabs(strain[1]));
 }
 
 int rb_rolling_has_ellipse(const rb_rolling_case *rc)

@@ -85,11 +85,15 @@ static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char
         widest_patch(s) / (rc->b.radius < 0.0 ? rb_unit_shown(s->units, "mm", d.radius) : radius);
     if (third > 0.0 || !isfinite(radius))
         width = third > 0.0 ? fmin(width, 2.0 * p0 / d.modulus) : 2.0 * p0 / d.modulus;
+    /* a contact with a/R strains by p0/E* = a/(2 R) */
+    const double bulk = rb_rolling_largest_bulk_strain(rc), bulk_width = 2.0 * bulk;
 
-    if (approach > inaccurate_approach || width > inaccurate_width) {
-        const int broken = approach > broken_approach || width > broken_width;
+    if (approach > inaccurate_approach || fmax(width, bulk_width) > inaccurate_width) {
+        const int broken = approach > broken_approach || fmax(width, bulk_width) > broken_width;
         char how_large[80];
-        if (isfinite(radius))
+        if (bulk_width > fmax(width, approach))
+            rb_format(how_large, sizeof how_large, "bulk strain = %.2g", bulk);
+        else if (isfinite(radius))
             rb_format(how_large, sizeof how_large, "approach = %.2g R, a = %.2g R",
                       s->approach / radius, width);
         else
@@ -107,6 +111,19 @@ static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char
                          how_large);
     }
     return 0;
+}
+
+/* A gap g0 - X x is that of a turned body up to X^2. */
+static int large_tilt(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double large = 0.1;
+
+    (void)rc;
+    return fabs(s->tilt) > large &&
+           write_note(text,
+                      "The tilt of %.3g is not a small angle: expect errors of the order of its "
+                      "square, %.2g.",
+                      s->tilt, s->tilt * s->tilt);
 }
 
 /* What a layer, cover or rim bears is a matter of its own thickness. */
@@ -563,7 +580,7 @@ static int base_pulls(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 static int strained_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     (void)s;
-    return rc->formulation == RB_STEADY && rb_rolling_is_strained(rc) &&
+    return rc->formulation != RB_STATIC && rb_rolling_bulk_strain(rc) != 0.0 &&
            write_note(
                text,
                "The creepage is that of the unstrained bodies: the bulk stresses shift every "
@@ -796,6 +813,7 @@ static const struct {
 } all_notes[] = {
     {"wide-arc", wide_arc, 0},
     {"strains", strains, 0},
+    {"large-tilt", large_tilt, 0},
     {"thin-and-strained", thin_and_strained, 0},
     {"strip-of-ellipse", strip_of_ellipse, 0},
     {"slope-of-strips", slope_of_strips, 0},
