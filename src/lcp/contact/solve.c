@@ -397,13 +397,13 @@ static rb_status solve_yield_newton(rb_contact_problem *problem, const rb_contac
 /* Where the friction of the surfaces without the layer stays below its yield stress, that
  * is the solution; else the start, at once or step by step. */
 static rb_status solve_from_coulomb(rb_contact_problem *problem, const rb_contact_options *options,
-                                    int follows, rb_contact_state *state, rb_message *why)
+                                    int warm, int follows, rb_contact_state *state, rb_message *why)
 {
     double *const yield = problem->yield;
 
     memset(state->plastic, 0, (size_t)problem->n * sizeof *state->plastic);
     problem->yield = NULL;
-    const rb_status s = solve_given(problem, options, 0, state, why);
+    const rb_status s = solve_given(problem, options, warm, state, why);
     problem->yield = yield;
     if (s < 0 || (s == RB_OK && !rb_contact_yields(problem, state)))
         return s;
@@ -413,6 +413,14 @@ static rb_status solve_from_coulomb(rb_contact_problem *problem, const rb_contac
 static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
                                 rb_contact_state *refused, rb_message *why);
 
+static int holds_yielding(const rb_contact_state *state)
+{
+    int yields = 0;
+    for (int i = 0; i < state->n; i++)
+        yields |= state->zone[i] >= RB_ZONE_YIELD_NEGATIVE || state->plastic[i] != 0.0;
+    return yields;
+}
+
 /* Newton's method in a few steps nearly always; a force that cannot be carried is found
  * before the long ways. */
 static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_options *options,
@@ -420,21 +428,22 @@ static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_op
 {
     const int lemke =
         options->solver == RB_SOLVER_LEMKE && rb_contact_operator_matrix(problem->op).F != NULL;
+    const int yields = warm && holds_yielding(state);
     rb_status s = RB_MAXITER;
 
     if (lemke) {
         s = proven(solve_lemke(problem, options, state, why), problem, options, state);
-    } else if (warm) {
+    } else if (yields) {
         s = solve_yield_newton(problem, options, 0, state);
     }
     if (s > 0)
-        s = solve_from_coulomb(problem, options, 0, state, why);
+        s = solve_from_coulomb(problem, options, warm && !yields, 0, state, why);
     if (s > 0 && problem->force_given) {
         const rb_status t = check_capacity(problem, options, state, why);
         s = t < 0 ? t : s;
     }
     if (s > 0)
-        s = solve_from_coulomb(problem, options, 1, state, why);
+        s = solve_from_coulomb(problem, options, 0, 1, state, why);
     if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO && rb_contact_operator_matrix(problem->op).F)
         s = solve_lemke(problem, options, state, why);
     return proven(s, problem, options, state);

@@ -173,28 +173,13 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     forget(known);
     for (int round = 0; round < ROUNDS && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
          round++) {
-        /* On a mesh that ends somewhere a corner of a punch can be a solution as well.
-         * Where the solver finds that one, the zones of the solution that the mesh was
-         * fitted to lead to the other one. */
-        rb_rolling_mesh mesh, old_mesh = model->mesh;
-        rb_contact_state old = model->state;
-        const int was_enclosed = old.status == RB_OK;
+        rb_rolling_mesh mesh;
         s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
                                   why);
-
-        if (s == RB_OK && rb_rolling_is_large(model->rc, &mesh))
-            s = rb_rolling_model_build(model, &mesh, why); /* which starts from the state */
-        else if (s == RB_OK) {
-            memset(&model->mesh, 0, sizeof model->mesh);
-            memset(&model->state, 0, sizeof model->state);
+        /* which starts from the solution before: on a mesh that ends somewhere a corner of a punch
+         * can be a solution as well */
+        if (s == RB_OK)
             s = rb_rolling_model_build(model, &mesh, why);
-            if (s == RB_ZONE && was_enclosed) {
-                rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
-                s = rb_rolling_model_resolve(model, 1, why);
-            }
-            rb_rolling_mesh_free(&old_mesh);
-            rb_contact_state_free(&old);
-        }
         const rb_status t = s < 0 ? s : find_patches(model, &found);
         if (t != RB_OK) {
             model->equal_instead = 0;
@@ -244,11 +229,12 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
         rb_rolling_coarsen_boundary(&model->plan);
     rb_status s = rb_rolling_solve_zone(model, 1, why);
     model->plan.near_field = asked.near_field;
+    model->iterations = 0; /* those on fitted elements count */
     /* Many elements start from the edges and the zones of few. */
     for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
         model->plan.elements = asked.elements >> k;
         s = rb_rolling_model_refit(model, why);
-        model->iterations = 0; /* those of the many count */
+        model->iterations = 0;
     }
     model->plan.elements = asked.elements;
     if (s == RB_OK)

@@ -207,6 +207,18 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling
 /* Elements up to which Lemke's method solves in seconds where mu beta >= 1. */
 enum { MOST_WITH_COUPLING = 300 };
 
+/* Zones, tractions and friction of another mesh, where its elements lie; of a fitted one, whose
+ * elements have moved with the edges, element by element. */
+static void start_near(const rb_rolling_mesh *old_mesh, const rb_contact_state *old,
+                       const double *bound, rb_rolling_model *model)
+{
+    if (model->rc->mesh == RB_MESH_FITTED && old->n == model->state.n)
+        rb_contact_copy_start(old, &model->state);
+    else
+        rb_rolling_start_from(model->rc, old_mesh, old, &model->mesh, &model->state);
+    rb_rolling_follow_friction(old_mesh, bound, model);
+}
+
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why)
 {
     const int kept = model->same_bodies && model->mesh.n == mesh->n &&
@@ -227,20 +239,16 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     memset(mesh, 0, sizeof *mesh);
     rb_status s = set_up(model, kept, why);
     const int large = s == RB_OK && !model->bodies.F;
-    if (large && near && model->rc->mesh == RB_MESH_FITTED && old.n == model->state.n) {
-        /* element by element: they have moved with the edges */
-        rb_contact_copy_start(&old, &model->state);
-        rb_rolling_follow_friction(&old_mesh, bound, model);
-    } else if (large && near) {
-        rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
-        rb_rolling_follow_friction(&old_mesh, bound, model);
-    } else if (large)
+    const int warm = large || (s == RB_OK && near && model->rc->mesh == RB_MESH_FITTED);
+    if (warm && near)
+        start_near(&old_mesh, &old, bound, model);
+    else if (large)
         s = start_from_coarse(model, why);
     free(bound);
     rb_contact_state_free(&old);
     rb_rolling_mesh_free(&old_mesh);
     if (s == RB_OK)
-        s = meet_ratio(model, rb_rolling_model_resolve(model, large, why), why);
+        s = meet_ratio(model, rb_rolling_model_resolve(model, warm, why), why);
     if (large && near && (s == RB_MAXITER || s == RB_SINGULAR)) {
         s = start_from_coarse(model, why);
         if (s == RB_OK)
