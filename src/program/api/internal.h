@@ -31,6 +31,20 @@ typedef struct {
     rb_message why;
 } api_refusal;
 
+/* What is described, field by field. */
+typedef struct {
+    const char *field, *text; /* NULL: none, written as "" */
+} api_field;
+
+/* Entries of a table of results: of columns of the owner, or numbers of an array of structs. */
+typedef struct {
+    const char *beginning; /* of the names of the arrays */
+    const rb_rolling_results *table;
+    const void *owner; /* NULL: there is none */
+    int rows, columns;
+    size_t size; /* of each of the structs; 0: columns */
+} api_entries;
+
 enum { API_CRACK_OPTIONS = 40 }; /* more than the table has */
 enum { API_REFUSALS = 16 };      /* of more the last ones are the same entry */
 
@@ -88,8 +102,34 @@ api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 /* NULL also where x is. */
 api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x);
 void rb_api_forget_arrays(rb_api *a, const char *beginning);
+/* Adds one column to an array that grows step by step. */
+rb_status rb_api_add_column(rb_api *a, const char *name, int rows, const double *x);
+/* Adds zones and tractions of a step to its arrays. */
+rb_status rb_api_add_state(rb_api *a, const char *beginning, const rb_contact_state *state);
+int rb_api_has_entries(const api_entries *of, const rb_rolling_result *r);
+/* NULL: there are none, or no memory. */
+api_array *rb_api_make_entries(rb_api *a, const api_entries *of, const rb_rolling_result *r);
+
+/* ---- Numbers and text -------------------------------------------------------------- */
+
+/* A number that is handed over, in mm, N, MPa; and one of these in the units of the case. */
+double rb_api_stored(const rb_api *a, const char *unit, double x);
+double rb_api_shown(const rb_api *a, const char *unit, double x);
+/* what, "" where it is NULL, copied into text, which is returned. */
+const char *rb_api_written(const char *what, char *text, int size);
+/* NULL: there is no such field. */
+const char *rb_api_field_of(size_t n, const api_field *of, const char *field, char *text, int size);
+
+/* ---- Derivatives ------------------------------------------------------------------- */
+
+extern const char *const rb_api_slopes_of[API_SLOPES_N];
+/* "tangential_load:mu". */
+const char *rb_api_slope_name(const rb_case_slope *of, char text[100]);
 /* Forgets the derivatives of this kind, with their arrays. */
 void rb_api_forget_slopes(rb_api *a, api_slopes of);
+
+/* ---- Calls ------------------------------------------------------------------------- */
+
 /* What the last call left: its message, how far it came, and whether it was stopped. */
 void rb_api_forget_call(rb_api *a);
 /* A refusal that no file or argument has answered for names its option as one: --crack-angle. */
