@@ -94,4 +94,13 @@ static inline double order(double coarse, double fine)
     return log2(coarse / fine);
 }
 
+/* What docs/bem.md says of three meshes, each so many times as fine as the one before:
+ * tests/formula/figures.py reads it. */
+static inline void print_errors(const char *what, double coarse, double fine, double finest,
+                                double finer)
+{
+    print_message("%s: %.3e, %.3e, %.3e, order %.3f, %.3f\n", what, coarse, fine, finest,
+                  order(coarse, fine) / log2(finer), order(fine, finest) / log2(finer));
+}
+
 #endif

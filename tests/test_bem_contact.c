@@ -533,6 +533,7 @@ TEST(small_contacts_are_on_a_half_plane)
             const double coarse = halfplane_difference(bodies[k], 25, 5e-7, friction),
                          fine = halfplane_difference(bodies[k], 50, 5e-7, friction),
                          finest = halfplane_difference(bodies[k], 100, 5e-7, friction);
+            print_errors("half-plane", coarse, fine, finest, 2.0);
             CHECK_MAX(finest, 1.7e-3, "body %d, friction %d", k, friction);
             CHECK_ABS(order(coarse, fine), 1.1, 0.1, "order, body %d, %d", k, friction);
             CHECK_ABS(order(fine, finest), 1.1, 0.1, "order, body %d, %d", k, friction);
@@ -548,6 +549,7 @@ TEST(the_wheel_shows_less_and_less)
     const double large = halfplane_difference(&on_hub, 100, 5.0, 0) - limit,
                  middle = halfplane_difference(&on_hub, 100, 0.5, 0) - limit,
                  small = halfplane_difference(&on_hub, 100, 0.05, 0) - limit;
+    print_message("what a wheel adds: %.3e, %.3e, %.3e\n", large, middle, small);
     CHECK_ABS(large / middle, 10.0, 1.0, "a/R = 0.1 and 0.01");
     CHECK_ABS(middle / small, 10.0, 1.0, "a/R = 0.01 and 0.001");
 }
@@ -683,6 +685,7 @@ TEST(the_support_carries_the_load)
         const double coarse = fabs(balance(bodies[k], 20, 80)),
                      fine = fabs(balance(bodies[k], 40, 160)),
                      finest = fabs(balance(bodies[k], 80, 320));
+        print_errors("balance", coarse, fine, finest, 2.0);
         CHECK_MAX(finest, 3e-4, "balance, body %d", k);
         CHECK_MAX(1.0, order(coarse, fine), "order of the balance, body %d", k);
         CHECK_MAX(1.0, order(fine, finest), "order of the balance, body %d", k);
@@ -756,6 +759,7 @@ TEST(the_disc_is_compressed_as_two_half_cylinders)
     const double coarse = disc_compression_error(101, 0.01),
                  fine = disc_compression_error(201, 0.01),
                  finest = disc_compression_error(401, 0.01);
+    print_errors("compression", coarse, fine, finest, 2.0);
     CHECK_MAX(finest, 6.5e-4, "compression on 802 elements");
     CHECK_ABS(order(coarse, fine), 1.1, 0.1, "order");
     CHECK_ABS(order(fine, finest), 1.1, 0.1, "order");

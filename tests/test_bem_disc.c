@@ -93,6 +93,7 @@ TEST(elements_converge_to_the_disc)
 {
     const double coarse = element_error(60, M_PI / 20), fine = element_error(180, M_PI / 20),
                  finest = element_error(540, M_PI / 20);
+    print_errors("rim", coarse, fine, finest, 3.0);
     CHECK_MAX(finest, 1.3e-3, "error on 540 elements");
     CHECK_ABS(order(coarse, fine) / log2(3), 1.0, 0.1, "order");
     CHECK_ABS(order(fine, finest) / log2(3), 1.0, 0.1, "order");

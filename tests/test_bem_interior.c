@@ -80,6 +80,8 @@ TEST(a_known_field_is_reproduced)
         const errors coarse = error_at_depth(60, row[k].depth),
                      fine = error_at_depth(120, row[k].depth),
                      finest = error_at_depth(240, row[k].depth);
+        print_errors("displacement", coarse.u, fine.u, finest.u, 2.0);
+        print_errors("stress", coarse.s, fine.s, finest.s, 2.0);
         CHECK_MAX(finest.u, row[k].u, "u at depth %g", row[k].depth);
         CHECK_MAX(finest.s, row[k].s, "stress at depth %g", row[k].depth);
         CHECK_MAX(1.65, order(coarse.u, fine.u), "order of u at depth %g", row[k].depth);
@@ -140,6 +142,7 @@ TEST(diametral_compression_at_the_centre)
     /* n alpha/pi odd */
     const double coarse = compression_error(60, alpha).s, fine = compression_error(180, alpha).s,
                  finest = compression_error(540, alpha).s;
+    print_errors("compression", coarse, fine, finest, 3.0);
     CHECK_MAX(finest, 2e-3, "error on 540 elements");
     CHECK_ABS(order(coarse, fine) / log2(3), 1.15, 0.15, "order");
     CHECK_ABS(order(fine, finest) / log2(3), 1.1, 0.1, "order");

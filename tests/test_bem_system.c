@@ -80,6 +80,7 @@ static double thick_ring_error(int n)
 static void check_first_order(double (*error)(int), int n, double bound, const char *what)
 {
     const double e[3] = {error(n), error(2 * n), error(4 * n)};
+    print_errors(what, e[0], e[1], e[2], 2.0);
     CHECK_MAX(e[2], bound, "%s on %d elements", what, 4 * n);
     CHECK_ABS(order(e[0], e[1]), 1.0, 0.2, "order of %s", what);
     CHECK_ABS(order(e[1], e[2]), 1.0, 0.15, "order of %s", what);

@@ -5,8 +5,10 @@ a formula that a function of this folder evaluates.
     rows NAME            a section of tests/figures, which looks for its rows on the page
     formula CHAPTER.TAG  a function of this folder
     by build/tests/TEST  a test that compares the numbers: they stand in its source
-    by COMMAND           what takes too long, or needs what is not here: not run, but it must exist (in front of a test:
-                         ROLLBEM_TEST_ALL=1, it prints the numbers and compares other ones)
+    prints COMMAND       it is run, and prints the numbers; after ROLLBEM_TEST_ALL=1 it is run only where that is set
+    bench COMMAND        ratios of one run of a program of tools/bench, a script of tools/scripts or a target of make,
+                         which depend a little on the machine: not compared.  The program must exist and must have the
+                         words of each row of the table up to a colon; seconds of more than one digit are refused.
     in FILE [FUNCTION...] numbers that a test compares, or that the program has as constants: they stand there
     from SOURCE          literature; theory.md: numbers of sections, whose headings stand there
     OPTIONS | EXPRESSION; EXPRESSION ...
@@ -17,9 +19,10 @@ a formula that a function of this folder evaluates.
                          stand in the table or the paragraph below.
     turns                before such lines: a quarter of them is run each day, all with ROLLBEM_TEST_ALL.
 
-But for rows, formulas and commands that are not run each number must be met by one of them, or stand in the comment."""
+But for rows, formulas and ratios each number must be met by one of them, or stand in the comment."""
 import ast
 import builtins
+import functools
 import glob
 import json
 import math
@@ -54,6 +57,7 @@ def commands(comment):
             yield loop[3].replace("{" + loop[1] + "}", word) if loop else line
 
 
+@functools.cache
 def summary(options):
     printed = subprocess.run([os.environ.get("ROLLBEM", "build/rollbem"), *options.split(), "--json", "--quiet"],
                              capture_output=True, text=True)
@@ -83,16 +87,56 @@ def named(rest):
     return set().union(*(numbers_in(f"tests/test{name}.c") for name in [first, *others]))
 
 
+@functools.cache
+def numbers_printed(command):
+    """The numbers that a command prints; none where it is run on some days only, and not today."""
+    wanted = re.sub(r"^ROLLBEM_TEST_ALL=1 ", "", command)
+    if wanted != command and not everything:
+        return None
+    build = os.path.dirname(os.environ.get("ROLLBEM", "build/rollbem"))
+    done = subprocess.run(wanted.replace("build/", build + "/"), shell=True, capture_output=True, text=True,
+                          env={**os.environ, "B": build, "CMOCKA_MESSAGE_OUTPUT": "STDOUT"})
+    return {abs(float(x)) for x in FIGURE.findall(done.stdout)}
+
+
+def sources(command):
+    """The text of a bench with its headers, of a script, or of what a target of make runs."""
+    target = re.match(r"make (\w+)", command)
+    if target:
+        line = re.search(rf"^{target[1]}:.*\n(?:\t.*\n)*", open("Makefile").read(), re.M)
+        files = re.findall(r"tools/scripts/[\w-]+", line[0]) if line else []
+        folders = [name for _, names, _ in os.walk("src") for name in names]
+        return " ".join([line[0] if line else "", *(open(file).read() for file in files), *folders, "all of these"])
+    file = re.sub(r"build/bench/(\w+)", r"tools/bench/\1.c", command.split()[0])
+    if not os.path.exists(file):
+        return ""
+    text = open(file).read()
+    headers = [os.path.join(os.path.dirname(file), name) for name in re.findall(r'#include "(\w+\.h)"', text)]
+    return " ".join([text, *(open(name).read() for name in headers if os.path.exists(name))])
+
+
+TIME = re.compile(r"(?<![\w.])(\d+\.\d+|\.\d+|\d+)(?:e-?\d+)? (?:n|m|micro)?s(?:econds)?\b")
+
+
+def not_of_bench(command, block):
+    """What is wrong with ratios that a bench measures."""
+    text = sources(command) and sources(command) + command
+    rows = re.findall(r"^ *\|([^|]*)\|", block, re.M)[2:]
+    unknown = {w for row in rows for w in re.findall(r"[A-Za-z]{3,}", re.split("[:(]", row)[0]) if w not in text}
+    return ([f"{command}: not here"] if not text else [f"{command} prints no row with {w!r}" for w in sorted(unknown)]) + [
+        f"{command}: {m[0]}, not a ratio" for m in TIME.finditer(block) if len(m[1].strip("0").replace(".", "").lstrip("0")) > 1] + (
+        [] if re.search(r"/|ratio|times|%|power|twice|half|more|less", block) else [f"{command}: no ratio"])
+
+
 def missing(kind, rest):
-    """What is wrong with a line that names a section, a function, a program."""
+    """What is wrong with a line that names a section or a function."""
     if kind == "rows":
         return [] if rest in open("tests/figures").read() else [f"tests/figures has no {rest!r}"]
     if kind == "formula":
         chapter, _, tag = rest.partition(".")
         return [] if f"def {tag}(" in open(f"tests/formula/{chapter}.py").read() else [f"no {rest}"]
-    rest = re.sub(r"^ROLLBEM_TEST_ALL=1 ", "", rest)
-    places = [re.sub(r"build/bench/(\w+).*", r"tools/bench/\1.c", rest), re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest), rest.split()[0]]
-    return [] if any(os.path.exists(p) for p in places) or rest.startswith(("make ", "CONTACT")) else [f"{rest}: not here"]
+    test = re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest)
+    return [] if kind != "by" or test != rest and os.path.exists(test) else [f"by {rest}: no test"]
 
 
 def check(comment, block, shown):
@@ -106,14 +150,18 @@ def check(comment, block, shown):
         if kind in ("rows", "formula", "by"):
             wrong += missing(kind, rest)
             all_named |= not compares
+        elif kind == "bench":
+            wrong += not_of_bench(rest, block)
+            all_named = True
         elif kind == "from" and not compares:
             all_named |= not any(map(is_measured, FIGURE.findall(rest)))
-        if kind == "in" or compares:
-            there = numbers_in(rest) if kind == "in" else named(rest)
-            alike = {w for w in shown if any(abs(x - abs(float(w))) <= 0.5001*unit(w) for x in there)}
-            wrong += [] if alike or kind != "in" else [f"nothing here is {line.strip()}"]
+        if kind in ("in", "prints") or compares:
+            there = numbers_in(rest) if kind == "in" else numbers_printed(rest) if kind == "prints" else named(rest)
+            all_named |= there is None
+            alike = {w for w in shown if any(abs(x - abs(float(w))) <= (0.6 if kind == "prints" else 0.5001)*unit(w) for x in there or [])}
+            wrong += [] if alike or there is None or compares else [f"nothing here is {line.strip()}"]
             met |= alike
-        elif kind in ("rows", "formula", "by", "from"):
+        elif kind in ("rows", "formula", "by", "bench", "from"):
             pass
         elif turns and not everything and k % 4 != turn % 4:
             continue

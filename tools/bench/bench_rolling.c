@@ -56,15 +56,16 @@ static void stages(void)
     static const int contact[] = {50, 100, 200, 400, 800};
 
     printf("one solution of a wheel on a hub (the zone found, free rolling too)\n\n"
-           "| n | n_c | assembly | LU | condensation | LCP | total | residual |\n"
-           "|---|---|---|---|---|---|---|---|\n");
+           "| n | n_c | assembly | LU | condensation | LCP | residual |\n"
+           "|---|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
         const rb_rolling_case rc = wheel(contact[k]);
         rb_rolling_solution s = median_solution(&rc);
-        printf("| %d | %d | %s | %s | %s | %s | %s | %s |\n", boundary_elements(&rc), contact[k],
-               row_seconds(s.seconds_assembly).text, row_seconds(s.seconds_factor).text,
-               row_seconds(s.seconds_condense).text, row_seconds(s.seconds_lcp).text,
-               row_seconds(s.seconds_total).text, row_power(1, s.residual).text);
+        const double percent = 100.0 / s.seconds_total;
+        printf("| %d | %d | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %s |\n", boundary_elements(&rc),
+               contact[k], percent * s.seconds_assembly, percent * s.seconds_factor,
+               percent * s.seconds_condense, percent * s.seconds_lcp,
+               row_power(1, s.residual).text);
         rb_rolling_solution_free(&s);
     }
 }
