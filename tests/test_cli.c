@@ -70,7 +70,7 @@ static const struct {
      "the cover is compressed by 105 % of its thickness"},
     {"--similar --young-b 1000", 64, "--similar and --young-b exclude each other"},
     {"--radius-b 50", 64, "--radius-b: body B is rigid without --similar or --young-b"},
-    {"--plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
+    {"--plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf, .eps or .tex"},
     {"--gap nowhere.txt", 66, "nowhere.txt"},
     {"nowhere.ini", 66, "nowhere.ini: No such file"},
     {"verfy", 66, "(did you mean 'verify'?)"},

@@ -39,7 +39,7 @@ static const struct {
     {"curve --dimensionless", 64, "(it is an option of rollbem, rollbem stress)"},
     {"--approach 1e-9 --zone 5 --dimensionless", 65,
      "--dimensionless: nothing touches, so there is neither a nor p0"},
-    {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
+    {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf, .eps or .tex"},
     {"--fretting --formulation static", 64, "--fretting: needs --history, a table whose rows end"},
     {"--fretting --formulation steady --creep 0.001", 64, "--fretting: what rolls has no cycle"},
     {"--fretting-plot f.svg --increments 2 --formulation static", 64,
@@ -62,6 +62,14 @@ static const struct {
     {"curve --plot-size 85mm", 64, "--plot-size: there is no picture"},
     {"--plot-script a.gp", 64, "--plot-script: expected one picture"},
     {"stress --plot a.svg --fringes b.svg --plot-script a.gp", 64, "got 2"},
+    {"--plot a.gif", 64,
+     "--plot: a .gif shows a history step by step (--history-plot FILE.gif); for this picture take "
+     "a "
+     "name ending in .png, .svg, .pdf, .eps or .tex"},
+    {"stress --fringes a.gif", 64, "--fringes: a .gif shows a history step by step"},
+    {"--history-plot a.gif", 64, "--history-plot: for --formulation transient, --history"},
+    {"--plot a.tex --plot-script a.gp", 64,
+     "--plot-script: gnuplot alone does not write the texts of a .tex picture"},
     {"--plot a.svg --plot-script a.svg", 64, "both would write 'a.svg'"},
 };
 
@@ -784,6 +792,87 @@ TEST(pictures_in_sizes)
                      70);
     slurp("alone.gp", out, sizeof out);
     assert_non_null(strstr(out, "$drawn << EOD"));
+}
+
+/* Every picture in every kind of file, in turn; as TeX it holds no cells of fields and no markup of
+ * gnuplot. */
+TEST(pictures_in_every_kind)
+{
+    static const char *const pictures[] = {
+        "--approach 0.5 --contact-elements 20 --plot a",
+        "--approach 0.5 --contact-elements 20 --increments 2 --history-plot a",
+        "--history cycle.txt --fretting --support halfplane --similar --mu 0.5 --contact-elements "
+        "20 "
+        "--fretting-plot a",
+        "curve " SIMILAR "--points 5 --contact-elements 20 --plot a",
+        "stress " SIMILAR "--contact-elements 8 --grid 5x3 --plot a",
+        "stress " SIMILAR "--contact-elements 8 --grid 5x3 --fringes a",
+        "stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown --shakedown-map a",
+        "wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 --wear-steps 2 "
+        "--contact-elements 20 --plot a",
+        "sweep --restart " SIMILAR
+        "--contact-elements 20 --vary-1 'mu .1 .2' --vary-2 'radius 9 20' "
+        "--plot a",
+        "sweep --restart " SIMILAR
+        "--contact-elements 20 --vary-1 'mu .1 .2' --vary-2 'radius 9 20' "
+        "--show max_pressure --map a",
+        "example truss --nodes 2 --plot a",
+        "example bar --plot a"};
+    static const struct {
+        const char *ending, *begin;
+    } kinds[] = {{"tex", "% Needs \\usepackage{gnuplot-lua-tikz}"},
+                 {"png", "\x89PNG"},
+                 {"svg", "<?xml"},
+                 {"pdf", "%PDF-"},
+                 {"eps", "%!PS-Adobe-"}};
+    enum { KINDS = sizeof kinds / sizeof *kinds };
+    write_file("cycle.txt", "load force_ratio\n100 0\n100 0.6\n100 -0.6\n100 0.6\n");
+    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++)
+        for (int i = 0; i < KINDS; i++) {
+            char line[500], name[20];
+            if (i > 0 && !is_in_turn((int)k + i, KINDS - 1))
+                continue;
+            snprintf(line, sizeof line, "%s.%s --output out.tsv", pictures[k], kinds[i].ending);
+            snprintf(name, sizeof name, "a.%s", kinds[i].ending);
+            assert_int_equal(rollbem(line), 0);
+            slurp(name, out, sizeof out);
+            if (strncmp(out, kinds[i].begin, strlen(kinds[i].begin)) != 0)
+                fail_msg("%s: begins with %.20s", line, out);
+            if (i == 0 &&
+                shell("grep '{/[:*]\\|[^ -~]' a.tex || test $(stat -c %s a.tex) -gt 150000") == 0)
+                fail_msg("%s: %s", line, out);
+            unlink(name);
+        }
+}
+
+/* A frame for each step, of many steps at most sixty. */
+TEST(a_history_moves)
+{
+    static const struct {
+        const char *line;
+        int frames;
+    } histories[] = {
+        {"--approach 0.5 --contact-elements 20 --increments 3", 6},
+        {"--support halfplane --similar --load 1e5 --contact-elements 40 --formulation transient "
+         "--creep-ratio 0.5 --distance 4 --units si",
+         60},
+        {"--history load.txt --support halfplane --relaxation-time 1 --relaxation-ratio 2 --mu 0 "
+         "--contact-elements 20",
+         4}};
+    write_file("load.txt", "time load\n0 100\n1 100\n2 100\n4 50\n");
+    for (size_t k = 0; k < sizeof histories / sizeof *histories; k++) {
+        char line[400];
+        if (!is_in_turn((int)k, 3))
+            continue;
+        snprintf(
+            line, sizeof line,
+            "%s --history-plot a.gif --history-table h.tsv --plot-script a.gp --output out.tsv",
+            histories[k].line);
+        assert_int_equal(rollbem(line), 0);
+        assert_int_equal(shell("gnuplot -d a.gp 2>said | cmp - a.gif && cat said"), 0);
+        if (atoi(strpbrk(out, "0123456789")) != histories[k].frames)
+            fail_msg("%s: %s", line, out);
+    }
 }
 
 /* What a reader needs who has the picture alone. */

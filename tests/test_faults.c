@@ -86,6 +86,7 @@ static const char *const allocating[] = {
     "--interlayer-normal 1e-6 --yield-stress 10 --hardening 100",
     "in/b.ini --support hub --outer-elements 24 --formulation steady --free-axle --young-b 2e5",
     "in/b.ini --increments 2 --shift 0.001 --json",
+    "in/b.ini --increments 2 --shift 0.001 --plot p.tex --history-plot h.gif",
     "in/b.ini --formulation steady --creep-ratio 0.5 --mesh fitted --solver newton",
     "in/b.ini --formulation steady --creep-ratio 0.5 --mesh aligned --contact-elements 12",
     "in/b.ini --formulation steady --force-ratio 0.5 --slip-operator second --solver nsn-ac",

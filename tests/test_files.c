@@ -88,9 +88,13 @@ TEST(what_cannot_be_written_is_not_solved)
 /* A limit of file sizes is what a full disk looks like. */
 TEST(full_disks_leave_nothing)
 {
-    static const char *const lines[] = {
-        CASE "--contact-elements 300 --output a.tsv", CASE "--fclib a.hdf5", CASE "--plot a.png",
-        "stress " CASE "--grid 40x40 --fringes a.png", "stress " CASE "--grid 40x40 --vtk a.vtu"};
+    static const char *const lines[] = {CASE "--contact-elements 300 --output a.tsv",
+                                        CASE "--fclib a.hdf5",
+                                        CASE "--plot a.png",
+                                        CASE "--plot a.tex",
+                                        CASE "--increments 6 --history-plot a.gif",
+                                        "stress " CASE "--grid 40x40 --fringes a.png",
+                                        "stress " CASE "--grid 40x40 --vtk a.vtu"};
     clear();
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
         char line[400];

@@ -126,8 +126,12 @@ TEST(a_part_of_a_picture_is_none)
         {RB_REPORT_PDF, "printf '%%PDF-1.5 and so on'", "printf '%%PDF-1.5 and so on %%%%EOF\\n'"},
         {RB_REPORT_PNG, "printf '\\211PNG\\r\\n\\032\\n and so on'",
          "printf '\\211PNG\\r\\n\\032\\n and so on IEND\\256B`\\202'"},
+        {RB_REPORT_GIF, "printf 'GIF89a and so on and on and on'",
+         "printf 'GIF89a and so on and on and on;'"},
+        {RB_REPORT_TEX, "printf '\\\\begin{tikzpicture} and so on'",
+         "printf '\\\\begin{tikzpicture} and so on\\n%%%%%%%% gnuplot variables\\n'"},
         {RB_REPORT_SVG, ":", "printf '<?xml <svg> more </svg>'"}};
-    for (int k = 0; k < 4; k++) {
+    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         FILE *out = tmpfile();
         CHECK_SAYS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &heard), RB_EWRITE,
                    "a part of the picture only");
@@ -136,6 +140,57 @@ TEST(a_part_of_a_picture_is_none)
         assert_true(ftell(out) > 20);
         fclose(out);
     }
+}
+
+/* The texts of gnuplot as LaTeX reads them, and nothing else of the picture but its date. */
+TEST(texts_of_a_tex_picture)
+{
+    static const char of_gnuplot[] =
+        "\\begin{tikzpicture}[gnuplot]\n"
+        "%% generated with GNUPLOT 5.4p4\n"
+        "%% Mon Nov 30 10:39:38 2026\n"
+        "\\gpcolor{rgb color={0.1,0.2,0.3}}\n"
+        "\\node[gp node right] at (1.012,0.985) {$-1$};\n"
+        "\\node[gp node left,rotate=-270,font={\\fontsize{9pt}{10pt}\\selectfont}] at (4.5,3.2) "
+        "{a_b "
+        "[10^{-4}]};\n"
+        "\\node[gp node center] at (1,2) {{/*0.85 {/:Bold T}  ξR/(μa_H) = -2.5·10^{6}, p_0 ≤ 3 % "
+        "}};\n"
+        "\\node[gp node center] at (1,2) {a\\_b & c-d #1 -x};\n"
+        "\\node[gp node center] at (1,2) {slip → }odd{ end};\n"
+        "\\node[gp node center] at (1,2) {};\n"
+        "\\end{tikzpicture}\n";
+    static const char of_latex[] =
+        "% Needs \\usepackage{gnuplot-lua-tikz}, which comes with gnuplot.\n"
+        "\\begin{tikzpicture}[gnuplot]\n"
+        "%% generated with GNUPLOT 5.4p4\n"
+        "\\gpcolor{rgb color={0.1,0.2,0.3}}\n"
+        "\\node[gp node right] at (1.012,0.985) {$-1$};\n"
+        "\\node[gp node left,rotate=-270,font={\\fontsize{9pt}{10pt}\\selectfont}] at (4.5,3.2) "
+        "{a\\textsubscript{b} [10\\textsuperscript{{$-$4}}]};\n"
+        "\\node[gp node center] at (1,2) {\\scalebox{0.85}{\\textbf{T}  "
+        "$\\xi$R/($\\mu$a\\textsubscript{H}) = $-$2.5$\\cdot$10\\textsuperscript{{6}}, "
+        "p\\textsubscript{0} $\\le$ 3 \\% }};\n"
+        "\\node[gp node center] at (1,2) {a\\_b \\& c-d \\#1 -x};\n"
+        "\\node[gp node center] at (1,2) {slip $\\to$ odd{ end}};\n"
+        "\\node[gp node center] at (1,2) {};\n"
+        "\\end{tikzpicture}\n";
+    char got[2000] = "";
+    FILE *picture = tmpfile(), *out = tmpfile(), *full = fopen("/dev/full", "w");
+    fputs(of_gnuplot, picture);
+    rewind(picture);
+    assert_int_equal(rb_report_tex(picture, out), RB_OK);
+    rewind(out);
+    got[fread(got, 1, sizeof got - 1, out)] = '\0';
+    assert_string_equal(got, of_latex);
+    if (full) {
+        setbuf(full, NULL);
+        rewind(picture);
+        assert_int_equal(rb_report_tex(picture, full), RB_EWRITE);
+        fclose(full);
+    }
+    fclose(picture);
+    fclose(out);
 }
 
 /* Each way in which a program called gnuplot may end without a picture. */

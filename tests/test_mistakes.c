@@ -52,7 +52,7 @@ static const struct {
     {"--support halfplane --layer-thickness 1 --base-poisson 0.3", "rigid without --base-young"},
     {"--support hub --cover-thickness 1 --core-poisson 0.3", "is rigid without --core-young"},
     {"--arc 30 --support hub", "it needs the support arc"},
-    {"--plot picture.jpg", ".png, .svg, .pdf or .eps"},
+    {"--plot picture.jpg", ".png, .svg, .pdf, .eps or .tex"},
     {"--plot", "expected a name, got nothing"},
     {"--output nowhere/table.tsv", "nowhere/table.tsv"},
     {"cas.ini", "No such file"},
@@ -409,7 +409,8 @@ TEST(refusals_have_their_code_and_reason)
         {66, "contact nothing.inp", "nothing.inp: No such file"},
         {64, "example tower", "a name that `rollbem examples` lists, got 'tower'"},
         {64, "example truss --plot p.xyz",
-         "expected a name ending in .png, .svg, .pdf or .eps, got 'p.xyz'"},
+         "expected a name ending in .png, .svg, .pdf, .eps or .tex (of a history also .gif), got "
+         "'p.xyz'"},
         {64, "example truss --nodes 2 --solver lemke", "lemke solves problems in 2D only"},
         {73, "example wall --mesh coarse --output b.ini", "b.ini: cannot write: Not a directory"},
         {73, "example truss --nodes 2 --output /nothing/t.tsv", "/nothing/t.tsv: cannot write"},
@@ -645,10 +646,9 @@ TEST(no_command_is_wider_than_a_terminal)
 /* | head: no message. */
 TEST(closed_pipes_end_in_silence)
 {
-    static const char *const commands[] = {"--help",
-                                           "--contact-elements 3000 --support "
-                                           "halfplane --mu 0 --quiet",
-                                           "help mesh", "examples", "--help=all"};
+    static const char *const commands[] = {
+        "--help", "--contact-elements 3000 --support halfplane --mu 0 --quiet", "help mesh",
+        "examples", "--help=all"};
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
         assert_int_equal(shellf("\"$R\" %s | head -n 1", commands[k]), 0);
         assert_string_equal(err, "");

@@ -344,13 +344,14 @@ TEST(notes_warn_where_due)
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
-TEST(pictures_of_four_kinds)
+TEST(pictures_of_every_kind)
 {
-    static const char *const names[] = {"a.png", "b.svg", "c.pdf", "d.eps"};
-    static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF", "%!PS"};
+    static const char *const names[] = {"a.png", "b.svg", "c.pdf", "d.eps", "e.tex"};
+    static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF", "%!PS",
+                                         "% Needs \\usepackage{gnuplot-lua-tikz}"};
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         rb_report_picture_kind kind;
         FILE *file = tmpfile();
         assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &heard), RB_OK);
@@ -367,7 +368,10 @@ TEST(picture_of_another_kind)
     rb_message why = {.text = ""};
     assert_int_equal(rb_report_picture_kind_of("a.bmp", &kind, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "a.bmp"));
+    assert_non_null(strstr(why.text, ".png, .svg, .pdf, .eps or .tex (of a history also .gif)"));
     assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);
+    assert_int_equal(rb_report_picture_kind_of("a.gif", &kind, &why), RB_OK);
+    assert_int_equal(kind, RB_REPORT_GIF);
 }
 
 /* Of several curves each says which of its points have no derivatives, in both forms. */
@@ -451,8 +455,9 @@ TEST(pictures_need_something_to_draw)
     rb_report_stress column = {.nx = 1, .ny = 5, .s = &pressed, .rc = &rc};
     rb_report_stress no_load = {.s = &none, .rc = &rc, .shakedown = &shakedown};
     const double x[] = {1.0, 2.0}, no_value[] = {NAN, NAN};
-    const rb_report_study study = {
-        .n = 2, .x = {"mu", "", x}, .shown = {"force_ratio", "", no_value}};
+    const rb_report_study study = {.n = 2,
+                                   .x = {.name = "mu", .unit = "", .value = x},
+                                   .shown = {.name = "force_ratio", .unit = "", .value = no_value}};
     enum { PICTURES = 11 };
     rb_message why[PICTURES];
     FILE *out = tmpfile();

@@ -250,8 +250,8 @@ TEST(tolerances_of_a_study_are_those_of_its_cases)
                                 "--units si " UNCERTAIN VARIED);
     const json_t *table = json_object_get(all, "table");
     for (size_t k = 0; k < 2; k++) {
-        held_json *one = run_json(k ? STUDY UNCERTAIN "--creep-ratio 0.8" + strlen("sweep ")
-                                    : STUDY UNCERTAIN "--creep-ratio 0.3" + strlen("sweep "));
+        held_json *one = run_json(k ? &(STUDY UNCERTAIN "--creep-ratio 0.8")[strlen("sweep ")]
+                                    : &(STUDY UNCERTAIN "--creep-ratio 0.3")[strlen("sweep ")]);
         const json_t *want = json_object_get(one, "tolerances");
         const double Q = number_in(want, "tangential_load");
         CHECK_REL(entry(table, "deviation_tangential_load_N/mm", k), Q, 1e-12, "case %zu", k);
@@ -611,7 +611,8 @@ TEST(what_cannot_be_drawn_is_refused)
         {"--plot a.png --show creep_ratio", "--show: creep_ratio varies"},
         {"--map a.png --vary-3 'mu .1 .2' ",
          "--map: cases 1 and 9 have the same mu and creep-ratio: more options vary"},
-        {"--plot a.gif", "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
+        {"--plot a.jpg", "--plot: expected a name ending in .png, .svg, .pdf, .eps or .tex"},
+        {"--map a.gif", "--map: a .gif shows a history step by step (--history-plot FILE.gif)"},
         {"--plot-size 85mm", "--plot-size: there is no picture"},
         {"--plot a.png --map b.png --plot-script c.gp", "--plot-script: expected one picture"},
         {"--plot a.png --map a.png", "both would write 'a.png'"}};

@@ -45,7 +45,7 @@ static const rb_option options[] = {
     RB_CHOICE_LINE("cost", PLACE(cost), costs, "cost that the profiles and the picture compare"),
     RB_GROUP_LINE("output", "Output"),
     CLI_STYLE_LINES(PLACE(style)),
-    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture of the profiles (.png, .svg, .pdf, .eps)",
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture of the profiles: " RB_REPORT_KINDS,
                  .unset = "none", .file = RB_FILE_PICTURE),
     CLI_PICTURE_LINES(PLACE(pictures)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",

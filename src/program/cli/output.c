@@ -196,6 +196,28 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb
     return CLI_CONTINUE;
 }
 
+/* The kind of the picture that --option asks for, with its gnuplot script or without. */
+static rb_status check_picture(const char *option, const char *path, int with_script,
+                               rb_message *why)
+{
+    rb_report_picture_kind kind;
+    rb_message reason = {.text = ""};
+
+    if (rb_report_picture_kind_of(path, &kind, &reason) != RB_OK)
+        return rb_fail(why, RB_EINVAL, "--%s: %s", option, reason.text);
+    if (kind == RB_REPORT_GIF && strcmp(option, "history-plot") != 0)
+        return rb_fail(why, RB_EINVAL,
+                       "--%s: a .gif shows a history step by step (--history-plot FILE.gif); for "
+                       "this picture take a name ending in " RB_REPORT_KINDS,
+                       option);
+    if (kind == RB_REPORT_TEX && with_script)
+        return rb_fail(why, RB_EINVAL,
+                       "--plot-script: gnuplot alone does not write the texts of a .tex picture as "
+                       "LaTeX reads them; give --%s a file of another kind",
+                       option);
+    return RB_OK;
+}
+
 cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
     /* What is said about pictures needs one, or one alone. */
@@ -237,10 +259,10 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
         if (is_output(o) && strcmp(path, "-") != 0)
             code = check_clash(spec, args, o, path);
         if (code == CLI_CONTINUE && o->file != RB_FILE_READ) {
-            rb_report_picture_kind kind;
             rb_message why = {.text = ""};
-            if (o->file == RB_FILE_PICTURE && rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
-                code = cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
+            if (o->file == RB_FILE_PICTURE &&
+                check_picture(o->name, path, about[1].given != 0, &why) != RB_OK)
+                code = cli_fail(CLI_USAGE, "%s", why.text);
             else
                 code = cli_say(o->file == RB_FILE_FOLDER ? rb_io_folder_check(path, &why)
                                                          : rb_io_writer_check(path, &why),

@@ -50,11 +50,11 @@ extern const rb_choice cli_picture_sizes[];
 
 /* A picture by the name of its file. */
 #define CLI_PICTURE_LINE(name, place, what)                                                        \
-    RB_TEXT_LINE(name, place, "FILE", what ": .png, .svg, .pdf or .eps", .unset = "none",          \
+    RB_TEXT_LINE(name, place, "FILE", what ": " RB_REPORT_KINDS, .unset = "none",                  \
                  .file = RB_FILE_PICTURE)
 
 #define CLI_PLOT_LINES(plot, pictures)                                                             \
-    RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg, .pdf or .eps (by gnuplot)",           \
+    RB_TEXT_LINE("plot", plot, "FILE", "picture: " RB_REPORT_KINDS " (by gnuplot)",                \
                  .unset = "none", .file = RB_FILE_PICTURE, .common = 1),                           \
         CLI_PICTURE_LINES(pictures)
 

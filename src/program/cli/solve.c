@@ -67,7 +67,8 @@ static const rb_option options[] = {
                  "one row per step; standard output has the tractions of the last one",
                  .unset = "none", .file = RB_FILE_WRITTEN),
     CLI_PICTURE_LINE("history-plot", PLACE(history_plot),
-                     "picture of creepage or shift, force and stick over the distance"),
+                     "picture of creepage or shift, force and stick over the distance (.gif: the "
+                     "tractions step by step)"),
     CLI_PICTURE_LINE("fretting-plot", PLACE(fretting_plot),
                      "with --fretting: picture of work, Ruiz's second parameter and SWT over x"),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
@@ -160,6 +161,8 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
 {
     const cli_case_run *run = context;
     const solved *it = run->own;
+    if (canvas.kind == RB_REPORT_GIF)
+        return rb_report_frames(out, canvas, &run->c->rc, &it->r.history, &it->kept, why);
     return rb_report_history_picture(out, canvas, &run->c->rc, &it->r.history, why);
 }
 
@@ -217,6 +220,14 @@ static void drop_derivatives(solved *it)
     rb_case_slopes_free(&it->slopes_of_steps);
 }
 
+static int is_animated(const solved *it)
+{
+    rb_report_picture_kind kind;
+    rb_message why;
+    return it->history_plot && rb_report_picture_kind_of(it->history_plot, &kind, &why) == RB_OK &&
+           kind == RB_REPORT_GIF;
+}
+
 static rb_status solve_case(cli_case_run *run, rb_message *why)
 {
     solved *it = run->own;
@@ -225,7 +236,8 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
     it->steps.terminal = !run->o.quiet && isatty(STDERR_FILENO);
     const int steps = rb_case_has_steps(run->c);
     it->steps.states =
-        it->states || (steps && (it->derivatives || it->tolerance)) ? &it->kept : NULL;
+        it->states || is_animated(it) || (steps && (it->derivatives || it->tolerance)) ? &it->kept
+                                                                                       : NULL;
     it->steps.proof = it->prove ? &it->proof : NULL;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->prove && !steps)

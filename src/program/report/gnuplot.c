@@ -93,12 +93,13 @@ static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *w
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         return missing(ENOENT, why);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        /* The line that says what was wrong comes last, after the lines it points at. */
+        /* The line that says what was wrong comes last, after the lines it points at; below it
+         * stands how many frames a .gif has. */
         char line[200], last[200] = "no message";
         rewind(errors);
         while (fgets(line, sizeof line, errors)) {
             line[strcspn(line, "\n")] = '\0';
-            if (line[strspn(line, " ^")])
+            if (line[strspn(line, " ^")] && !strstr(line, "frames in animation"))
                 memcpy(last, line, sizeof last);
         }
         return rb_fail(why, RB_EHELPER, "gnuplot failed: %s", last);
@@ -108,29 +109,40 @@ static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *w
 
 /* ---- The picture ------------------------------------------------------------------- */
 
-/* How a whole picture begins and ends, line ends apart. */
+/* What a kind is called, and how a whole picture of it begins and ends, line ends apart. */
 static const struct {
-    const char *begin, *end;
+    const char *ending, *begin, *end;
     size_t end_size;
-} whole[] = {{"\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82", 8},
-             {"<?xml", "</svg>", 6},
-             {"%PDF-", "%%EOF", 5},
-             {"%!PS-Adobe-", "%%EOF", 5}};
+} kinds[] = {[RB_REPORT_PNG] = {".png", "\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82", 8},
+             [RB_REPORT_SVG] = {".svg", "<?xml", "</svg>", 6},
+             [RB_REPORT_PDF] = {".pdf", "%PDF-", "%%EOF", 5},
+             [RB_REPORT_EPS] = {".eps", "%!PS-Adobe-", "%%EOF", 5},
+             [RB_REPORT_TEX] = {".tex", "\\begin{tikz", "gnuplot variables", 17},
+             [RB_REPORT_GIF] = {".gif", "GIF89a", ";", 1}};
 
 /* gnuplot does not say that its output could not be written. */
 static int is_whole(FILE *picture, rb_report_picture_kind kind)
 {
-    char head[16] = "", tail[16];
+    char head[16] = "", tail[20];
     rewind(picture);
-    if (fread(head, 1, strlen(whole[kind].begin), picture) == 0 ||
-        strcmp(head, whole[kind].begin) != 0 || fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
+    if (fread(head, 1, strlen(kinds[kind].begin), picture) == 0 ||
+        strcmp(head, kinds[kind].begin) != 0 || fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
         fread(tail, 1, sizeof tail, picture) != sizeof tail)
         return 0;
     size_t n = sizeof tail;
-    while (kind != RB_REPORT_PNG && n > 0 && strchr("\r\n", tail[n - 1]))
+    while (n > 0 && strchr("\r\n", tail[n - 1]))
         n--;
-    const size_t size = whole[kind].end_size;
-    return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
+    const size_t size = kinds[kind].end_size;
+    return n >= size && memcmp(tail + n - size, kinds[kind].end, size) == 0;
+}
+
+static rb_status copy(FILE *picture, FILE *out)
+{
+    char buffer[1 << 14];
+    size_t n;
+    while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 && fwrite(buffer, 1, n, out) == n)
+        ;
+    return ferror(picture) || ferror(out) ? RB_EWRITE : RB_OK;
 }
 
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
@@ -150,13 +162,12 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
                         "gnuplot wrote a part of the picture only (is the disk full?)");
     }
     if (s == RB_OK) {
-        char buffer[1 << 14];
-        size_t n;
         rewind(picture);
-        while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 && fwrite(buffer, 1, n, out) == n)
-            ;
-        if (ferror(picture) || ferror(out))
-            s = rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
+        s = (kind == RB_REPORT_TEX ? rb_report_tex : copy)(picture, out);
+        if (s == RB_EWRITE)
+            rb_fail(why, s, "cannot write: %s", strerror(errno));
+        else if (s != RB_OK)
+            rb_fail(why, s, "out of memory");
     }
     if (errors)
         fclose(errors);
@@ -169,25 +180,30 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
 
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind, rb_message *why)
 {
-    static const char *const ends[] = {".png", ".svg", ".pdf", ".eps"};
     const size_t n = strlen(path);
-    for (int k = 0; k < 4; k++)
-        if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (n > 4 && strcmp(path + n - 4, kinds[k].ending) == 0) {
             *kind = (rb_report_picture_kind)k;
             return RB_OK;
         }
-    return rb_fail(why, RB_EINVAL, "expected a name ending in .png, .svg, .pdf or .eps, got '%s'",
-                   path);
+    return rb_fail(
+        why, RB_EINVAL,
+        "expected a name ending in " RB_REPORT_KINDS " (of a history also .gif), got '%s'", path);
 }
 
 enum { SHAPES = 4 };
 
+#define ON_WHITE " background '#ffffff' enhanced"
+
 /* Each shape in its own size: width and height in `unit`, of which an inch has so many.
- * The key needs its font named: svg would take a larger one. */
+ * The key needs its font named: svg would take a larger one.  LaTeX sets the letters of its
+ * document, of this size. */
 static const struct {
-    const char *terminal, *unit;
+    const char *terminal, *font_name, *options, *unit;
     double inch, width[SHAPES], height[SHAPES], font[SHAPES], line[SHAPES], key_font;
 } looks[] = {{"pngcairo",
+              "DejaVu Sans",
+              ON_WHITE,
               "",
               300,
               {1600, 1800, 1920, 1920},
@@ -196,6 +212,8 @@ static const struct {
               {2.2, 2.2, 2.0, 2.0},
               24},
              {"svg",
+              "DejaVu Sans",
+              ON_WHITE,
               "",
               96,
               {1000, 1200, 1280, 1280},
@@ -204,6 +222,8 @@ static const struct {
               {1.5, 1.5, 1.4, 1.4},
               15},
              {"pdfcairo",
+              "DejaVu Sans",
+              ON_WHITE,
               "in",
               1,
               {10, 12, 13.33, 13.33},
@@ -212,13 +232,35 @@ static const struct {
               {1.6, 1.6, 1.5, 1.5},
               21},
              {"epscairo",
+              "DejaVu Sans",
+              ON_WHITE,
               "in",
               1,
               {10, 12, 13.33, 13.33},
               {7.5, 5, 7.5, 7.5},
               {21, 19, 20, 20},
               {1.6, 1.6, 1.5, 1.5},
-              21}};
+              21},
+             {"tikz",
+              "",
+              "",
+              "in",
+              1,
+              {4.75, 6, 6, 6},
+              {3.56, 2.5, 3.375, 3.375},
+              {6.5, 6, 6.5, 6.5},
+              {0.8, 0.8, 0.8, 0.8},
+              6.5},
+             {"gif animate delay 25 loop 0",
+              "DejaVu Sans",
+              ON_WHITE,
+              "",
+              96,
+              {800, 1000, 1000, 1000},
+              {600, 417, 563, 563},
+              {12, 12, 12, 12},
+              {1.2, 1.2, 1.2, 1.2},
+              12}};
 
 /* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
  * part of the width, than in the shape's own size (alike: in four thirds, so that they
@@ -345,12 +387,12 @@ static void write_canvas(FILE *script, rb_report_canvas canvas, rb_report_shape 
     const int k = canvas.kind;
     const rb_report_place place = rb_report_place_of(canvas);
 
-    fprintf(script,
-            "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
-            "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\nset tics out "
-            "nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
-            looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
-            looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
+    fprintf(
+        script,
+        "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font '%s,%.3g' linewidth %.3g%s\n"
+        "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
+        looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit, looks[k].font_name,
+        looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters, looks[k].options);
     rb_report_let_whole(script, "titled", place.titled);
     rb_report_let_whole(script, "slide", canvas.size == RB_REPORT_SLIDE);
     rb_report_let(script, "right", place.right);

@@ -178,6 +178,10 @@ typedef enum {
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
                             rb_message *why);
 
+/* Copies a picture of TikZ, whose texts gnuplot hands on as they are, with these texts as LaTeX
+ * sets them.  RB_EWRITE: see errno; RB_ENOMEM. */
+rb_status rb_report_tex(FILE *picture, FILE *out);
+
 /* Width and height of the canvas in font sizes of so many points. */
 void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double font,
                           double letters[2]);

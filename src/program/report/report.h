@@ -185,7 +185,16 @@ void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
-typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF, RB_REPORT_EPS } rb_report_picture_kind;
+typedef enum {
+    RB_REPORT_PNG,
+    RB_REPORT_SVG,
+    RB_REPORT_PDF,
+    RB_REPORT_EPS,
+    RB_REPORT_TEX, /* TikZ, for \input into a LaTeX document with gnuplot-lua-tikz.sty */
+    RB_REPORT_GIF  /* frame by frame: of a history only */
+} rb_report_picture_kind;
+/* Those of every picture, as help and refusals name them. */
+#define RB_REPORT_KINDS ".png, .svg, .pdf, .eps or .tex"
 
 /* Sizes for a column and a page of a paper, with letters of 6 and 7 points, and for a
  * slide, 16:9. */
@@ -209,7 +218,7 @@ typedef struct {
  * gnuplot is missing or has failed; RB_EFORMAT: it does not understand the canvas's own template;
  * RB_EWRITE; RB_ENOMEM. */
 
-/* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf, .eps. */
+/* By the end of the name.  RB_EINVAL: it is none of these. */
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
                                     rb_message *why);
 
@@ -363,6 +372,11 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
  * a static history; errors as bands. */
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                                     const rb_rolling_history *history, rb_message *why);
+/* The tractions step by step, for RB_REPORT_GIF: a frame for each of at most 60 steps, of more for
+ * as many at equal distances, at four frames in a second.  states: of all steps, in mm and MPa. */
+rb_status rb_report_frames(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                           const rb_rolling_history *history, const rb_rolling_states *states,
+                           rb_message *why);
 /* Work of friction, Ruiz's second parameter and SWT of the last cycle over x. */
 rb_status rb_report_fretting_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                                      const rb_rolling_solution *s, rb_message *why);

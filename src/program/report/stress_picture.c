@@ -286,6 +286,7 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
 
     let_all(out, v, v->s->of_b ? "Isochromatics of B" : "Isochromatics");
     rb_report_let(out, "fringe", v->fringe / v->stress_unit);
+    rb_report_let(out, "last_fringe", 2.0 * v->s->maxima->max_shear.value / v->stress_unit);
     rb_report_let(out, "x_step",
                   rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)));
     rb_report_let(out, "y_step", rb_report_round_step(v->depth / 5.0));

@@ -14,7 +14,7 @@ if (!titled) set xtics 100; set label 2 sprintf('displacements × %g', magnify) 
 set yrange [-0.2 * height:1.55 * height]
 set ytics 0, 0.5 * height
 set format x ''
-set ylabel 'y [mm]'
+set ylabel 'y [mm]' offset aside,0
 set object rectangle from graph 0, graph 0 to graph 1, first 0 fillcolor rgb '#cfcfcf' fillstyle solid noborder behind
 plot $mesh using 'x':'y' with lines linecolor rgb '#6f9fc8' linewidth 0.35 notitle, \
      $edge using 'x':'y' with lines linecolor rgb '#1f4e79' linewidth 1.2 notitle
@@ -24,7 +24,7 @@ set tmargin at screen 0.55
 set bmargin at screen 0.13
 set format x '%g'
 set xlabel 'x [mm]' offset 0,0.3
-set ylabel 'reaction [N/mm]'
+set ylabel 'reaction [N/mm]' offset aside,0
 set yrange [0:*]
 set ytics autofreq
 set offsets 0, 0, graph 0.2, 0

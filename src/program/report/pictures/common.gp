@@ -8,6 +8,8 @@ set dashtype 14 (9,3,3,3)
 set dashtype 15 (14,3)
 set dashtype 16 (6,2,2,2,2,2)
 dashes(k) = k % 6 == 0 ? 1 : 11 + k % 6
+tex = GPVAL_TERM eq 'tikz'
+aside = tex ? -2.5 : 0 # letters to the left: gnuplot does not know how wide TeX sets the numbers at the tics
 grey = '#999999'
 # gnuplot reads no number such as 2e+06, which has an exponent and no point
 numeric(text) = strstrt(text, 'e') == 0 || strstrt(text, '.') > 0 ? real(text) \
@@ -25,6 +27,8 @@ zone_ink(zone) = zone == 0 ? '#666666' : strong(zone)
 set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')
 set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6
 set cntrlabel onecolor
+filled = !tex # TeX has no memory for the cells of a fine grid: it draws the contours alone
+contour_lines = "with lines nosurface linecolor rgb '".(filled ? '#ffffff' : '#365c8d')."' linewidth "
 contour_numbers = "using 'x':'y':'level':(sprintf('%g', column('level'))) nocontour with labels boxed font"
 # below the surface, with a line outside it where the bodies touch: thick where they slip
 set_field = "set view map; set tics scale 0.6; unset key; set pm3d map corners2color mean; set xrange [x_from:x_to]; set yrange [y_from:y_to]; part(k, i) = number($zones[i], k); \

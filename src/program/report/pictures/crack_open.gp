@@ -15,7 +15,7 @@ set tmargin at screen 0.21 + high + up
 set xrange [x_from:x_to]
 set yrange [bottom:y_to]
 set xlabel 'x / a'
-set ylabel 'y / a'
+set ylabel 'y / a' offset aside,0
 set xtics step
 set ytics step
 set key inside right top horizontal maxrows 1 samplen 2 font key_font

@@ -16,7 +16,7 @@ if (above_0) set yrange [0:*]
 if (titled) set label 1 title at screen 0.54, 0.972 center
 if (titled) set label 9 bodies at screen 0.54, 0.935 center textcolor rgb '#444444'
 if (logarithmic) set logscale x
-set ylabel y_label offset (logarithmic ? 0 : 1),0
+set ylabel y_label offset (logarithmic ? 0 : 1) + aside,0
 if (heat) set multiplot; set format x ''
 if (!heat) set xlabel x_label; set format x x_format
 n = words(first)
@@ -54,7 +54,7 @@ set tmargin at screen 0.345 + up
 set bmargin at screen 0.14 + up
 set xlabel x_label
 set format x x_format
-set ylabel 'hottest  [K]' offset 1,0
+set ylabel 'hottest  [K]' offset 1 + aside,0
 set offsets 0,0,graph 0.08,graph 0.08
 set yrange [*:*]
 if (heat_step > 0) set ytics heat_step

@@ -15,7 +15,7 @@ if (!brakes) set key left top Left reverse samplen 2.2 font key_font
 if (titled) set label 1 title at screen 0.54, 0.972 center
 if (titled) set label 9 numbers at screen 0.54, 0.935 center textcolor rgb '#444444'
 set xlabel x_label
-set ylabel y_label offset 1,0
+set ylabel y_label offset 1 + aside,0
 row(list, k) = int(word(list, k))
 # of an empty loop, which is looked at nevertheless, the first test
 J(j) = words(joined) ? row(joined, j) : 1

@@ -8,7 +8,7 @@ set grid linecolor rgb '#dddddd' linewidth 0.6
 set zeroaxis linecolor rgb grey linewidth 0.6
 set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06
 set xlabel x_label
-set ylabel y_label
+set ylabel y_label offset aside,0
 set cblabel position offset 1,0
 unset key
 set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')

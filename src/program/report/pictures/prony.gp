@@ -9,7 +9,7 @@ set logscale xy
 set format x '10^{%L}'
 set format y '%g'
 set xlabel 'angular frequency  [rad/s]'
-set ylabel y_label offset 1,0
+set ylabel y_label offset 1 + aside,0
 set key left top Left reverse samplen 2.2 font key_font
 plot $fitted using 'omega':'storage' with lines linecolor rgb colour(0) linewidth 2.2 title "E', series", \
      $table using 'omega':'storage' with points pointtype 6 pointsize 1.2 linewidth 1.4 linecolor rgb colour(0) title "E', measured", \

@@ -6,7 +6,7 @@ set bmargin at screen 0.14
 set tmargin at screen 0.92
 set grid linecolor rgb '#dddddd' linewidth 0.6
 set xlabel 'traction  |Q|/P'
-set ylabel 'p_0 / k' offset 1,0
+set ylabel 'p_0 / k' offset 1 + aside,0
 set xrange [0:traction_to]
 set yrange [0:limit_to]
 if (titled) set label 1 title at screen 0.54, 0.955 center

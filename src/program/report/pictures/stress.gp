@@ -4,6 +4,7 @@
 beside = surface_above ? 1.018 : -0.018
 eval set_field
 set contour base
+if (!filled) unset colorbox
 set multiplot
 of(k, name) = value(sprintf('%s%d', name, k))
 top(k) = of(k, 'middle') + of(k, 'height') / 2
@@ -24,14 +25,13 @@ do for [k=1:2] {
     set xtics of(k, 'x_step')
     set ytics of(k, 'y_step')
     set cbtics of(k, 'scale_step')
-    set colorbox user origin of(k, 'left') + of(k, 'width') + 0.012, top(k) - of(k, 'height') size 0.013, of(k, 'height')
+    if (filled) { set colorbox user origin of(k, 'left') + of(k, 'width') + 0.012, top(k) - of(k, 'height') size 0.013, of(k, 'height') }
     # the value of the maximum stands in the title, where it covers no contour's
     set label 2 (k == 1 ? 'in-plane shear' : 'von Mises').stress_axis.',  largest '.of(k, 'largest_text').' at +' at screen of(k, 'left') + of(k, 'width') / 2, top(k) + (titled ? 0.05 : 0.03) center
     set label 3 '' at first of(k, 'largest_x'), first of(k, 'largest_y') point pointtype 1 pointsize 1.6 linewidth 1.6 linecolor rgb '#111111' front
     set cbrange [0:of(k, 'level_step') * ceil(of(k, 'largest') / of(k, 'level_step'))]
     set cntrparam levels incremental of(k, 'level_step'), of(k, 'level_step'), of(k, 'largest')
-    eval sprintf('splot $table %s with pm3d nocontour, $table %s with lines nosurface linecolor rgb "#ffffff" linewidth 0.6, $numbers%d %s number_font', \
-        field(k), field(k), k, contour_numbers)
+    eval 'splot '.(filled ? '$table '.field(k).' with pm3d nocontour, ' : '').'$table '.field(k).' '.contour_lines.'0.6, '.sprintf('$numbers%d ', k).contour_numbers.' number_font'
     unset label 1
     unset label 4
     unset label 9

@@ -12,7 +12,7 @@ set offsets 0,0,graph 0.05,graph (v_from < 0 ? 0.05 : 0)
 if (titled) set label 1 title at screen 0.5, 0.972 center
 if (titled && bodies ne '') set label 9 bodies at screen 0.5, 0.935 center textcolor rgb '#444444'
 set xlabel x_label
-set ylabel v_label
+set ylabel v_label offset aside,0
 set xrange [x_from:x_to]
 if (x_format ne '') set format x x_format
 if (v_format ne '') set format y v_format
@@ -20,7 +20,7 @@ if (words) { set xrange [x_from - 0.5:x_to + 0.5]; set xtics (word1 0); do for [
 if (!words && x_step > 0) set xtics x_step
 if (!words && x_step == 0) set logscale x
 if (flat) set yrange [v_from:v_to]
-set key outside right center samplen 2 font key_font title y_name.(y_unit eq '' ? '' : "\n[".y_unit."]")
+set key outside right center samplen 2 font key_font title y_name.(y_unit eq '' ? '' : "\n[".y_unit."]").(tex ? "\n" : '')
 if (y_name eq '') unset key
 rows(k) = sprintf('every ::%d::%d', row(first, k), row(last, k))
 line(k) = apart ? 'points' : row(last, k) - row(first, k) < 24 ? 'linespoints' : 'lines'

@@ -12,7 +12,7 @@ set size ratio -1
 set xrange [-0.1 * width:1.35 * width]
 set yrange [-0.05 * height:1.08 * height]
 set xlabel 'x [m]' offset 0,0.3
-set ylabel 'z [m]' offset 1.5,0
+set ylabel 'z [m]' offset 1.5 + aside,0
 set xtics 0, 0.1
 set ytics 0, 0.1
 set object rectangle from -0.1 * width, -0.05 * height to 1.35 * width, 0 fillcolor rgb '#bdbdbd' fillstyle solid noborder behind
@@ -29,13 +29,13 @@ unset xlabel
 set format x ''
 if (!titled) set xtics 0.2; set ytics 10
 eval open_panel(1)
-set ylabel 'force [kN]' offset -0.7,0
+set ylabel 'force [kN]' offset -0.7 + aside,0
 set key bottom right Left reverse samplen 2
 plot $table using 'time':'compression' with lines linewidth 2 linecolor rgb '#1f4e79' title 'compression', \
      $table using 'time':'shear' with lines linewidth 2 linecolor rgb '#c0392b' dashtype 12 title 'shear'
 if (!titled) set ytics points_step
 eval open_panel(2)
-set ylabel 'contact points' offset (titled ? -0.7 : 0.5),0
+set ylabel 'contact points' offset (titled ? -0.7 : 0.5) + aside,0
 set format x '%g'
 set xlabel 'time [s]' offset 0,0.3
 set key center left Left reverse
