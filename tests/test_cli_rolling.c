@@ -1152,6 +1152,13 @@ TEST(almost_no_friction)
     "exact --load 3111.08 --mu 0.18 --formulation steady --contact-elements 60 "
 #define FALLS "--friction-law exponential --mu-fall 0.12 --slip-scale 10 --speed 45000 "
 
+/* What a force of 0 leaves of the creepage of similar bodies is rounding. */
+TEST(rounding_is_no_creepage)
+{
+    CHECK_RUN(rollbem("--example rail --force 0"), 0, err,
+              "  creepage  xi = 0, xi R/(mu a) = 0, free rolling at 0\n");
+}
+
 /* A list of solutions says from where to where a contact sticks, and nothing where it does not. */
 TEST(solutions_that_slide_have_no_stick_zone)
 {

@@ -13,6 +13,8 @@ const char *rb_report_unit_name(rb_units units, const char *unit);
 /* Returns 0 if x is only a rounding error of a sum of terms of this size, otherwise x;
  * for output to readers. */
 double rb_report_tidy(double x, double size);
+/* The creepage; 0 where a given force leaves nothing but rounding of it. */
+double rb_report_creepage(const rb_rolling_solution *s);
 
 /* ---- Columns by the tables of results ---------------------------------------------- */
 

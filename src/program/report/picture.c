@@ -161,12 +161,12 @@ static void let_results(FILE *out, const view *v)
                   RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name,
                   RB_REPORT_NUMBER(s->max_pressure / v->stress.size, 5), v->stress.name);
         if (!isnan(s->creepage) && moves)
-            rb_append(text, sizeof text, ",  ξ = %s", RB_REPORT_NUMBER(s->creepage, 4));
+            rb_append(text, sizeof text, ",  ξ = %s", RB_REPORT_NUMBER(rb_report_creepage(s), 4));
         if (!isnan(s->creep_ratio) && moves) {
             /* With the a and R of its formula where they are not those that the title shows. */
             const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
             rb_append(text, sizeof text, ",  ξR/(μa%s) = %s", other_a(v) ? "_H" : "",
-                      RB_REPORT_NUMBER(s->creep_ratio, 3));
+                      RB_REPORT_NUMBER(rb_report_creepage(s) == 0.0 ? 0.0 : s->creep_ratio, 3));
             if (other_a(v) || other_radius(v))
                 rb_append(text, sizeof text, ":");
             if (other_radius(v))

@@ -57,14 +57,21 @@ double rb_report_tidy(double x, double size)
     return fabs(x) <= 1e-12 * fabs(size) ? 0.0 : x;
 }
 
+double rb_report_creepage(const rb_rolling_solution *s)
+{
+    const double bound = 1e-12;
+    return fabs(s->creepage) <= bound && fabs(s->creep_ratio) <= bound ? 0.0 : s->creepage;
+}
+
 /* Creepage, friction power, the resistance to rolling and the torques that it takes. */
 static void write_rolling(FILE *out, const rb_rolling_solution *s)
 {
     const char *load = rb_unit_name(s->units, "N/mm");
+    const double creepage = rb_report_creepage(s);
 
-    fprintf(out, "  creepage  xi = %.6g", s->creepage);
+    fprintf(out, "  creepage  xi = %.6g", creepage);
     if (!isnan(s->creep_ratio))
-        fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
+        fprintf(out, ", xi R/(mu a) = %.5g", creepage == 0.0 ? 0.0 : s->creep_ratio);
     if (!isnan(s->free_creepage)) {
         const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
         fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
