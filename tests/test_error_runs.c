@@ -124,8 +124,8 @@ TEST(stresses_have_bars_where_they_are_asked_for)
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) own, again;
-    rb_rolling_stress_maxima maxima;
-    rb_rolling_errors errors, alone;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
+    OWNED(rb_rolling_errors) errors, alone;
     CHECK_OK(rb_rolling_solve_model(&rc, &model, &own, &heard));
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard));
     CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, NULL, &errors, &heard));

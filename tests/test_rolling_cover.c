@@ -201,7 +201,7 @@ TEST(an_incompressible_cover_has_an_elastic_core)
         *(k < 3 ? &p0[k] : &hard[k - 3]) = s.max_pressure;
         OWNED(rb_rolling_model) model;
         CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
-        rb_rolling_stress_maxima m;
+        OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
         CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &heard));
         *(k < 3 ? &mises[k] : &hard_mises[k - 3]) = m.von_mises.value;
     }

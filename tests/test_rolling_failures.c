@@ -37,7 +37,7 @@ static rb_status find_shakedown(void *context)
 {
     OWNED(rb_rolling_model) model;
     rb_rolling_shakedown limit;
-    rb_rolling_stress_maxima maxima;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     rb_status s = rb_rolling_model_create(context, &model, NULL);
     if (s == RB_OK)
         s = rb_rolling_shakedown_find(&model, &limit, NULL);

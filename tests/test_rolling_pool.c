@@ -64,8 +64,8 @@ TEST(rows_have_what_is_asked_for)
         const rb_rolling_sweep sweep = of(1, 1, also);
         rb_rolling_pool *pool;
         rb_rolling_case rc;
-        rb_rolling_errors errors;
-        rb_rolling_stress_maxima stress;
+        OWNED(rb_rolling_errors) errors;
+        OWNED(rb_rolling_stress_maxima) stress = {.bonds = 0};
         CHECK_OK(rb_rolling_pool_start(&sweep, &pool, NULL));
         const rb_rolling_row row = row_of(pool, 0);
         pool->stop(pool);

@@ -99,7 +99,7 @@ static void check_extremum(const char *name, rb_rolling_extremum got, double val
 TEST(hertz_below_the_surface)
 {
     rb_rolling_case rc = with(wheel_on_plane(0.3), "mu 0");
-    rb_rolling_stress_maxima m;
+    OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
@@ -112,7 +112,7 @@ TEST(hertz_below_the_surface)
 TEST(full_sliding_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_stress_maxima m;
+    OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
     set(&rc, "similar mu 0.2 formulation steady creep-ratio -1.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
@@ -125,7 +125,7 @@ TEST(full_sliding_below_the_surface)
 TEST(a_wheel_has_the_stress_of_the_half_plane)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    rb_rolling_stress_maxima m;
+    OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
     set(&rc, "support hub half-width %g mu 0", 1e-3 * rc.a.radius);
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
@@ -141,7 +141,7 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
     double tension[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
-        rb_rolling_stress_maxima m;
+        OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
         rc.a.support = k ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         rc.b = rc.a;
         set(&rc, "half-width %g mu 0.2 formulation steady creep-ratio -2", 1e-3 * rc.a.radius);
@@ -345,7 +345,7 @@ TEST(every_result_stands_once)
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 12");
-    rb_rolling_stress_maxima maxima;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int count = 0, refused = 1; refused && count < 100; count++) {
         refused = REFUSED_FROM(count, rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL));

@@ -126,7 +126,7 @@ static rb_status use_stress(task *t)
     const double xy[] = {0.0, 0.5, 0.3, 0.2};
     rb_rolling_stress at[2];
     rb_rolling_stress_grid grid;
-    rb_rolling_stress_maxima maxima;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     rb_rolling_shakedown shakedown;
     rb_status s = rb_rolling_stress_at(&t->model, 2, xy, at, &t->why);
     if (s == RB_OK)

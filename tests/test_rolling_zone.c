@@ -307,7 +307,7 @@ TEST(stress_is_looked_for_below_every_patch)
     rb_rolling_case rc = with(halfplane(0.3, 0.0, 80), "mesh fitted load 4");
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
-    rb_rolling_stress_maxima maxima;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     set_lobes(&rc, 25.0, 0.004, 1);
     if (rb_rolling_solve_model(&rc, &model, &s, &heard) != RB_OK ||
         rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard) != RB_OK)

@@ -284,7 +284,7 @@ TEST(points_and_bonds_of_three_layers)
                                           rigid ? 0.0 : 210e3);
         OWNED(rb_rolling_model) model = {0};
         rb_rolling_stress at[4];
-        rb_rolling_stress_maxima most;
+        OWNED(rb_rolling_stress_maxima) most = {.bonds = 0};
         put_on(&rc.a, &hard);
         ellipse(&rc, &model);
         if (!rigid) {
@@ -308,9 +308,80 @@ TEST(points_and_bonds_of_three_layers)
                 CHECK_ABS(got[i].x, bonds[rigid][j][i].x, 1e-3, "its place, bond %d, %d", j + 1, i);
             }
         }
-        assert_true(isnan(most.bond[3].peel.value));
+        assert_int_equal(most.bonds, 3);
         assert_true(isnan(most.bond[2].tension_below.value) == rigid);
     }
+}
+
+/* Twelve layers of the base's material, each of an eighth of Hertz's half-width: the shear of the
+ * half-plane at 0.5, 0.75 and 1 a. */
+TEST(every_bond_of_many_layers)
+{
+    enum { LAYERS = 12 };
+    static const struct {
+        int bond;
+        double shear, x;
+    } hertz[] = {{4, 0.25, 0.8660}, {6, 0.2390, 0.8899}, {8, 0.21796, 0.9502}};
+    double t[LAYERS], E[LAYERS], nu[LAYERS];
+    rb_rolling_case rc = rolling_case(
+        "support halfplane young 2e5 poisson 0.3 base-young 2e5 base-poisson 0.3 gap parabola mu 0 "
+        "radius 50 load 500 mesh fitted contact-elements 100");
+    const double a = rb_rolling_derive(&rc).half_width;
+    const rb_bem_stack stack = {LAYERS, t, E, nu};
+    for (int k = 0; k < LAYERS; k++) {
+        t[k] = a / 8.0;
+        E[k] = 2e5;
+        nu[k] = 0.3;
+    }
+    put_on(&rc.a, &stack);
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_solution) s;
+    OWNED(rb_rolling_stress_maxima) most = {.bonds = 0}, again = {.bonds = 0};
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &heard));
+    assert_int_equal(most.bonds, LAYERS);
+    for (size_t k = 0; k < sizeof hertz / sizeof *hertz; k++) {
+        const rb_rolling_extremum *shear = &most.bond[hertz[k].bond - 1].shear;
+        CHECK_REL(shear->value / s.max_pressure, hertz[k].shear, 2e-4, "bond %d", hertz[k].bond);
+        CHECK_ABS(fabs(shear->x) / a, hertz[k].x, 2e-3, "bond %d", hertz[k].bond);
+        assert_true(isnan(most.bond[hertz[k].bond - 1].peel.x));
+    }
+    char name[RB_ROLLING_PLACE];
+    const rb_rolling_bond_maxima *last = &most.bond[LAYERS - 1];
+    assert_string_equal(rb_rolling_place_name(last->shear.material, name), "layer 12");
+    assert_int_equal(rb_rolling_place_named("layer 12"), last->shear.material);
+    assert_int_equal(last->tension_below.material, RB_MATERIAL_BASE);
+    /* at its own place each is found again, on the side of the bond that it belongs to */
+    CHECK_OK(rb_rolling_stress_maxima_alloc(LAYERS, &again));
+    for (int k = 0; rb_rolling_maximum(&most, k); k++) {
+        *rb_rolling_maximum(&again, k) = *rb_rolling_maximum(&most, k);
+        if (!isnan(rb_rolling_maximum(&again, k)->x))
+            rb_rolling_maximum(&again, k)->value = NAN;
+    }
+    CHECK_OK(rb_rolling_stress_maxima_at(&model, &again, &heard));
+    for (int k = 0; rb_rolling_maximum(&most, k); k++)
+        CHECK_ABS(rb_rolling_maximum(&again, k)->value, rb_rolling_maximum(&most, k)->value,
+                  1e-9 * s.max_pressure, "maximum %d", k);
+}
+
+TEST(names_of_bonds)
+{
+    static const char *const bad[] = {"bond_0_peel", "bond_x_peel",  "bond_2_pull",
+                                      "bond_2peel",  "bond_-1_peel", "max_shear"};
+    rb_rolling_maximum_result r;
+    int k, part, of_b;
+    assert_true(rb_rolling_find_bond_number("bond_37_tension_below_y_b", &k, &part, &of_b));
+    assert_true(k == 6 + 36 * 4 + 3 && part == 2 && of_b == 1);
+    assert_string_equal(rb_rolling_describe_maximum(k, part, of_b, &r)->name,
+                        "bond_37_tension_below_y_b");
+    assert_string_equal(rb_rolling_describe_maximum(k, 0, 1, &r)->meaning,
+                        "tension below bond 37 in B");
+    assert_string_equal(rb_rolling_describe_maximum(2, 1, 0, &r)->name, "von_mises_x");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(rb_rolling_find_bond_number(bad[i], &k, &part, &of_b));
+    assert_int_equal(rb_rolling_place_named("layer 0"), -1);
+    assert_int_equal(rb_rolling_place_named("layer 1 or below"), -1);
+    assert_int_equal(rb_rolling_place_named("base"), RB_MATERIAL_BASE);
 }
 
 /* Inside a layer and cut: the same stress; across a bond syy, sxy and the strain along x go on. */

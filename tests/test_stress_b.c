@@ -94,7 +94,8 @@ static void exchange(int k)
         CHECK_ABS(of_b[i].von_mises, of_a[i].von_mises, 9.0 * share * p0, "case %d: %d", k, i);
     }
     if (k % 5 == 0) { /* the search takes longer */
-        rb_rolling_stress_maxima most, most_a;
+        OWNED(rb_rolling_stress_maxima) most = {.bonds = 0};
+        OWNED(rb_rolling_stress_maxima) most_a = {.bonds = 0};
         CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &heard));
         CHECK_OK(rb_rolling_stress_maxima_find(&swapped, 0.0, &most_a, &heard));
         for (int i = 0; rb_rolling_maximum(&most, i); i++) {
@@ -147,7 +148,7 @@ TEST(partial_slip_is_no_mirror_image)
         CHECK_ABS(s.von_mises / p0, rows[k][6], 1e-4, "von Mises at %g", rows[k][0]);
     }
     /* 2 mu p0 (2 sqrt s - s) at the trailing edge of B, 2 mu p0 s at the leading one of A */
-    rb_rolling_stress_maxima most;
+    OWNED(rb_rolling_stress_maxima) most = {.bonds = 0};
     CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &heard));
     CHECK_REL(most.tension.value / p0, 0.6 * (2.0 * sqrt(0.5) - 0.5), 1e-3, "tension in B");
     CHECK_ABS(most.tension.x, -1.0, 2e-3, "at the trailing edge");

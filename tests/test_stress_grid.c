@@ -141,7 +141,7 @@ TEST(stress_without_memory)
     const rb_rolling_case rc = pressed(RB_BEM_HUB);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) solution;
-    rb_rolling_stress_maxima maxima;
+    OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     int refused = 1, refusals = 0;
     assert_int_equal(rb_rolling_solve_model(&rc, &model, &solution, NULL), RB_OK);
     for (int k = 0; refused; k++) {

@@ -332,7 +332,7 @@ static void compare(int k)
     rb_rolling_model model;
     if (rb_rolling_model_create(&rc, &model, &heard) != RB_OK)
         return; /* options that do not go together */
-    rb_rolling_stress_maxima m;
+    OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &heard));
     int n = scan(&model, xy, MOST), kept = 0;
     CHECK_OK(rb_rolling_inside(&model, n, xy, inside));
@@ -342,8 +342,8 @@ static void compare(int k)
             xy[2 * kept++ + 1] = xy[2 * i + 1];
         }
     CHECK_OK(rb_rolling_stress_at(&model, kept, xy, at, &heard));
-    /* the last four are those of the bond */
-    for (int j = 0; maximum_of(&m, j) != &m.bond[0].peel; j++) {
+    /* behind them are those of the bond */
+    for (int j = 0; j < rb_rolling_maxima_scalars.n / 3; j++) {
         int best = 0;
         for (int i = 0; i < kept; i++)
             best = measured(&at[i], j) > measured(&at[best], j) ? i : best;

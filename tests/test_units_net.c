@@ -273,6 +273,10 @@ static const char *unit_of(const char *name, const char *path)
         if (r)
             return r->unit ? r->unit : "";
     }
+    rb_rolling_maximum_result bond;
+    int k_of, part, of_b;
+    if (rb_rolling_find_bond_number(own, &k_of, &part, &of_b))
+        return rb_rolling_describe_maximum(k_of, part, of_b, &bond)->unit;
     const rb_rolling_results *crack[] = {&rb_case_crack_scalars, &rb_case_crack_columns,
                                          &rb_case_crack_growth_columns};
     for (int k = 0; k < 3; k++) {

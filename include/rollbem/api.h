@@ -141,9 +141,12 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   stress.x stress.y stress.max_shear ...  after rb_api_stress, nx x ny, or
  *                                rb_api_stress_at, an entry per point
  *   maxima.max_shear ...         after rb_api_stress_maxima: value, x, y, material (0: A is
- *                                of one, 1: its layer or cover, 2: the base below); also
+ *                                of one, 1: its layer or cover, 2: the base below, 3: the
+ *                                first of several layers, 4: the second, and so on); also
  *                                tresca_shear, von_mises, orthogonal_shear, tension,
- *                                compression
+ *                                compression; maxima.bond_1_peel, maxima.bond_1_shear,
+ *                                maxima.bond_1_tension_above, maxima.bond_1_tension_below and
+ *                                so on to the last bond, of layers and covers
  *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
  *   crack.summary.K_I_max ...    one number each
  *   crack.growth.length crack.growth.cycles ...   with "paris", an entry per length

@@ -814,15 +814,11 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
 
 /* The material of A that a place lies in: on a bond the stress along it jumps. */
 typedef enum {
-    RB_MATERIAL_BODY,                        /* A is of one material */
-    RB_MATERIAL_LAYER,                       /* a layer on a half-plane, the cover of a wheel */
-    RB_MATERIAL_BASE,                        /* the half-plane below the layers */
-    RB_MATERIAL_FIRST,                       /* the first of several layers; after it the others */
-    RB_MATERIAL_LAST = RB_MATERIAL_FIRST + 9 /* the tenth, and all below it */
+    RB_MATERIAL_BODY,  /* A is of one material */
+    RB_MATERIAL_LAYER, /* a layer on a half-plane, the cover of a wheel */
+    RB_MATERIAL_BASE,  /* the half-plane below the layers */
+    RB_MATERIAL_FIRST  /* the first of several layers; those below it are numbered on from here */
 } rb_rolling_place;
-
-/* Bonds of a stack whose maxima are looked for, from the surface down. */
-enum { RB_ROLLING_BONDS = 4 };
 
 /* Value and place of a maximum. */
 typedef struct {
@@ -830,22 +826,28 @@ typedef struct {
     rb_rolling_place material;
 } rb_rolling_extremum;
 
+/* At the bond of a layer, of a cover: largest tension across it, shear along it, and tension along
+ * it on either side.  0, without a place: none; NAN: there is no such side, or the search does not
+ * go down to it. */
+typedef struct {
+    rb_rolling_extremum peel, shear, tension_above, tension_below;
+} rb_rolling_bond_maxima;
+
 typedef struct {
     rb_rolling_extremum max_shear, tresca_shear, von_mises;
     rb_rolling_extremum orthogonal_shear; /* largest |sxy| */
     rb_rolling_extremum tension;          /* largest principal stress */
     rb_rolling_extremum compression;      /* the smallest principal stress, with the other sign */
-    /* At the bonds of layers, the first of which may be that of a cover: largest tension across
-     * it, shear along it, and tension along it on either side.  0, without a place: none; NAN:
-     * there is no such bond or side. */
-    struct {
-        rb_rolling_extremum peel, shear, tension_above, tension_below;
-    } bond[RB_ROLLING_BONDS];
+    int bonds;                    /* of the layers, or that of a cover, from the surface down */
+    rb_rolling_bond_maxima *bond; /* owned */
 } rb_rolling_stress_maxima;
+
+void rb_rolling_stress_maxima_free(rb_rolling_stress_maxima *maxima);
 
 /* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and
  * inside; or not deeper than `depth` [length], if that is not 0.  At the ends of a clamped
- * arc the stress is infinite: what lies within one element of them is left out. */
+ * arc the stress is infinite: what lies within one element of them is left out.  Free the maxima in
+ * any case. */
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why);
 

@@ -669,8 +669,13 @@ class Curves(list):
         return f"<Curves: mu = {', '.join(str(curve.mu) for curve in self)}>"
 
 
-# rb_rolling_place_name of the library, in the order of its numbers
-_MATERIALS = ("body", "layer", "base", *(f"layer {k}" for k in range(1, 10)), "layer 10 or below")
+# rb_rolling_place_name of the library, in the order of its numbers; behind them "layer 1", "layer 2" and so on
+_MATERIALS = ("body", "layer", "base")
+
+
+def _material(number: float) -> str:
+    layer = int(number) - len(_MATERIALS)
+    return _MATERIALS[int(number)] if layer < 0 else f"layer {layer + 1}"
 
 
 class Extremum(tuple):
@@ -686,7 +691,7 @@ class Extremum(tuple):
 
     def __new__(cls, numbers: Sequence[float]) -> "Extremum":
         extremum = super().__new__(cls, numbers[:3])
-        extremum.material = _MATERIALS[int(numbers[3])] if len(numbers) > 3 else "body"
+        extremum.material = _material(numbers[3]) if len(numbers) > 3 else "body"
         return extremum
 
 
@@ -946,11 +951,13 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
     with handle.lock:  # what the call has made is read before another thread calls
         handle.check(handle.run("rb_api_stress_of", int(body == "b")))
         handle.check(handle.run("rb_api_stress_maxima", depth))
-        names = ("max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression")
-        bond = tuple(f"bond_{k}_{of}" for k in (1, 2, 3, 4)
-                     for of in ("peel", "shear", "tension_above", "tension_below"))
-        maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names + bond}
-        # NaN: of a bond, or a side of it, that the body does not have
+        names = ["max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression"]
+        bonds = 0
+        while handle.array(f"maxima.bond_{bonds + 1}_peel") is not None:
+            bonds += 1
+            names += (f"bond_{bonds}_{of}" for of in ("peel", "shear", "tension_above", "tension_below"))
+        maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
+        # NaN: of a side of a bond that the body does not have, or deeper than was searched
         maxima = {name: of for name, of in maxima.items() if not np.isnan(of.value)}
         if points is None:
             if np.ndim(grid) != 1 or len(grid) != 2:

@@ -159,6 +159,10 @@ def test_layers(tmp_path):
     assert abs(bond.value / 10.164 - 1) < 1e-3 and abs(abs(bond.x) - 1.1001) < 2e-3 and bond.material == "layer 1"
     assert abs(stress.maxima["bond_3_shear"].value / 101.104 - 1) < 1e-4
     assert "bond_4_peel" not in stress.maxima
+    many = {"thickness": [0.1] * 12, "young": [400e3, 3e3] * 6, "poisson": [0.3] * 12}
+    deep = rollbem.stress(case.but(layers=many), points=[[0.3, 0.12]]).maxima
+    assert deep["bond_12_shear"].material == "layer 12" and deep["bond_12_shear"].y == pytest.approx(1.2)
+    assert deep["bond_12_tension_below"].material == "base" and "bond_13_shear" not in deep
     with pytest.raises(rollbem.InvalidInput, match="the first row of layers= says it"):
         rollbem.solve(case.but(young=3.0))
 

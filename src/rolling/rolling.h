@@ -295,9 +295,9 @@ extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_col
 /* The columns of rb_rolling_wear_history, one entry per step. */
 extern const rb_rolling_results rb_rolling_wear_columns;
 /* The numbers of rb_rolling_stress, and of rb_rolling_stress_maxima: three rows for each
- * maximum, its value and its place. */
+ * maximum, its value and its place; of rb_rolling_bond_maxima, with the names of bond 1. */
 extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars,
-    rb_rolling_maxima_b_scalars;
+    rb_rolling_maxima_b_scalars, rb_rolling_bond_scalars, rb_rolling_bond_b_scalars;
 
 /* All these tables; an entry without a name ends the list. */
 typedef struct {
@@ -774,12 +774,28 @@ double rb_rolling_next_friction_jump(const rb_rolling_model *model, int *k);
 /* Whether it jumps at this place. */
 int rb_rolling_friction_jumps_at(const rb_rolling_model *model, double x);
 
-/* "body", "layer", "base". */
-const char *rb_rolling_place_name(rb_rolling_place place);
+/* "body", "layer", "base", "layer 1"; and back: -1 where it is none of them. */
+enum { RB_ROLLING_PLACE = 24 };
+const char *rb_rolling_place_name(rb_rolling_place place, char name[RB_ROLLING_PLACE]);
+int rb_rolling_place_named(const char *name);
 
-/* The k-th of them, of which rb_rolling_maxima_scalars has the rows 3k, 3k + 1 and 3k + 2;
- * NULL: there are no more. */
+/* The k-th of them: those in the body, and then four of each bond; NULL: there are no more. */
 rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *maxima, int k);
+/* Its value, part 0, or a coordinate of its place, 1 and 2, as a result, with the name of its bond.
+ */
+typedef struct {
+    rb_rolling_result result;
+    char name[40], meaning[60];
+} rb_rolling_maximum_result;
+const rb_rolling_result *rb_rolling_describe_maximum(int k, int part, int of_b,
+                                                     rb_rolling_maximum_result *described);
+double *rb_rolling_maximum_number(rb_rolling_stress_maxima *maxima, int k, int part);
+/* 1: the name is that of a bond's number; sets which one it is. */
+int rb_rolling_find_bond_number(const char *name, int *k, int *part, int *of_b);
+/* NANs of so many bonds, in the place of nothing.  RB_ENOMEM. */
+rb_status rb_rolling_stress_maxima_alloc(int bonds, rb_rolling_stress_maxima *maxima);
+/* Of its bonds. */
+void rb_rolling_errors_free(rb_rolling_errors *errors);
 
 /* From mm, N, MPa to other units. */
 void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *maxima,
@@ -864,7 +880,7 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
 
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
  * MPa.  stress, stress_b: its maxima in all of A and of B if error bars for them are wanted,
- * otherwise NULL. */
+ * otherwise NULL.  Free the errors in any case. */
 rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
                                      const rb_rolling_stress_maxima *stress_b,
@@ -908,14 +924,20 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
 
 /* ---- Parameter studies ----------------------------------------------------------- */
 
-enum { RB_ROW_OWN = 128 };
+enum { RB_ROW_OWN = 128, RB_ROW_BONDS = 128 };
+
+/* A number of a bond, by rb_rolling_maximum_number. */
+typedef struct {
+    int k, part, of_b;
+} rb_rolling_bond_number;
 
 /* The results of one case of a study: numbers only, no columns; NAN if a case has no such
  * result. */
 typedef struct {
     rb_rolling_solution solution;              /* with the status of the case */
     rb_rolling_errors errors;                  /* NAN without RB_ROW_ERRORS */
-    rb_rolling_stress_maxima stress, stress_b; /* NAN without RB_ROW_STRESS, ..._B */
+    rb_rolling_stress_maxima stress, stress_b; /* without bonds; NAN without RB_ROW_STRESS, ..._B */
+    double bond[RB_ROW_BONDS], bond_error[RB_ROW_BONDS]; /* what the sweep names; otherwise NAN */
     double own[RB_ROW_OWN];     /* values computed by `measure` of the sweep; otherwise NAN */
     rb_rolling_row_notes notes; /* in the units of the sweep */
 } rb_rolling_row;
@@ -935,7 +957,9 @@ void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
  * the case gets RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
-    unsigned also;  /* what to compute besides the solution: bits RB_ROW_... */
+    unsigned also; /* what to compute besides the solution: bits RB_ROW_... */
+    int bonds;     /* numbers of bonds, which need RB_ROW_STRESS or ..._B */
+    const rb_rolling_bond_number *bond;
     rb_units units; /* of what notes say */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
     /* own: row->own of the case that `make` made last; model: its solved model; may be

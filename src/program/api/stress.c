@@ -136,7 +136,7 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
 
 int rb_api_stress_maxima(rb_api *a, double depth)
 {
-    rb_rolling_stress_maxima m;
+    rb_rolling_stress_maxima m = {.bonds = 0};
     rb_rolling_mirror *mirror;
     const rb_rolling_model *model;
     rb_status s = begin_stress(a, "maxima.", &mirror, &model);
@@ -151,9 +151,12 @@ int rb_api_stress_maxima(rb_api *a, double depth)
         const rb_rolling_extremum *at = rb_rolling_maximum(&m, k);
         const double x[] = {at->value, at->x, at->y, at->material};
         char name[64];
-        snprintf(name, sizeof name, "maxima.%s", rb_rolling_maxima_scalars.row[3 * k].name);
+        rb_rolling_maximum_result named;
+        snprintf(name, sizeof name, "maxima.%s",
+                 rb_rolling_describe_maximum(k, 0, 0, &named)->name);
         if (!rb_api_copy_array(a, name, 4, 1, x))
             s = RB_ENOMEM;
     }
+    rb_rolling_stress_maxima_free(&m);
     return rb_api_ended(a, s);
 }

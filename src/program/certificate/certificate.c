@@ -94,6 +94,7 @@ static void free_parts(parts *p)
 {
     rb_certificate_slopes_free(&p->slopes);
     rb_rolling_stress_grid_free(&p->stress.grid);
+    rb_rolling_stress_maxima_free(&p->stress.maxima);
     free(p->given.numbers);
     rb_rolling_solutions_free(&p->all);
     rb_rolling_states_free(&p->states);

@@ -63,14 +63,18 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, const bo
 static rb_status maxima_again(rb_certificate *c, const json_t *printed, double depth, const body *b,
                               rb_rolling_stress_maxima *maxima, rb_message *why)
 {
-    rb_rolling_stress_maxima found, there;
-    rb_status s = rb_rolling_stress_maxima_find(b->model, depth, &found, why);
+    rb_rolling_stress_maxima there = {.bonds = 0};
+    rb_status s = rb_rolling_stress_maxima_find(b->model, depth, maxima, why);
 
+    if (s == RB_OK)
+        s = rb_rolling_stress_maxima_alloc(maxima->bonds, &there);
     if (s != RB_OK)
         return s;
-    there = *maxima = found;
     for (int k = 0; rb_rolling_maximum(&there, k); k++) {
-        const json_t *one = json_object_get(printed, rb_rolling_maxima_scalars.row[3 * k].name);
+        rb_rolling_maximum_result described;
+        const json_t *one =
+            json_object_get(printed, rb_rolling_describe_maximum(k, 0, 0, &described)->name);
+        *rb_rolling_maximum(&there, k) = *rb_rolling_maximum(maxima, k);
         const char *material = rb_certificate_word(one, "material");
         const double x = rb_certificate_stored(c, one, "x"),
                      y = b->up * rb_certificate_stored(c, one, "y"),
@@ -81,17 +85,16 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
             continue;
         at->x = x;
         at->y = y;
-        for (at->material = RB_MATERIAL_BODY;
-             at->material < RB_MATERIAL_LAST &&
-             strcmp(material, rb_rolling_place_name(at->material)) != 0;)
-            at->material++;
+        const int place = rb_rolling_place_named(material);
+        at->material = place < 0 ? RB_MATERIAL_BODY : (rb_rolling_place)place;
     }
     rb_message outside;
     s = rb_rolling_stress_maxima_at(b->model, &there, &outside);
     for (int k = 0; rb_rolling_maximum(&there, k) && s == RB_OK; k++)
         if (rb_rolling_maximum(&there, k)->value >=
-            rb_rolling_maximum(&found, k)->value - slack_of(b))
+            rb_rolling_maximum(maxima, k)->value - slack_of(b))
             *rb_rolling_maximum(maxima, k) = *rb_rolling_maximum(&there, k);
+    rb_rolling_stress_maxima_free(&there);
     return s == RB_ENOMEM ? s : RB_OK;
 }
 

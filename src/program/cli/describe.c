@@ -93,14 +93,14 @@ static void print_examples(void)
 static void print_values(const cli_spec *spec, const rb_option *o)
 {
     const rb_rolling_results *const tables[] = {
-        &rb_rolling_solution_scalars, &rb_rolling_maxima_scalars, &rb_rolling_maxima_b_scalars,
-        &rb_case_crack_scalars};
+        &rb_rolling_solution_scalars, &rb_rolling_maxima_scalars, &rb_rolling_bond_scalars,
+        &rb_rolling_maxima_b_scalars, &rb_rolling_bond_b_scalars, &rb_case_crack_scalars};
     const int names = kind_of_names(o), slopes = names == OF_SLOPES;
     if (names < 0)
         print_choices(o);
     else if (names == OF_EXAMPLES)
         print_examples();
-    for (int t = 0; (slopes || names == OF_RESULTS) && t < 4; t++)
+    for (int t = 0; (slopes || names == OF_RESULTS) && t < 6; t++)
         for (int k = 0; k < tables[t]->n; k++)
             if (!slopes || rb_sensitivity_has(&tables[t]->row[k]))
                 printf(" %s", tables[t]->row[k].name);

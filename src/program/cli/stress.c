@@ -266,10 +266,11 @@ static rb_status estimate_errors(const cli_case_run *run, stress *st, rb_message
     rb_rolling_stress_maxima maxima;
     rb_status s = (st->of_b ? rb_rolling_stress_maxima_of_b
                             : rb_rolling_stress_maxima_find)(&st->run.model, 0.0, &maxima, why);
-    return s == RB_OK ? rb_rolling_estimate_errors(&run->c->rc, &st->run.solution,
-                                                   st->of_b ? NULL : &maxima,
-                                                   st->of_b ? &maxima : NULL, &st->errors, why)
-                      : s;
+    if (s == RB_OK)
+        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, st->of_b ? NULL : &maxima,
+                                       st->of_b ? &maxima : NULL, &st->errors, why);
+    rb_rolling_stress_maxima_free(&maxima);
+    return s;
 }
 
 /* A table of rollbem has h and zone: the tractions of elements, and their edges (B14). */
@@ -346,7 +347,7 @@ static rb_status solve_stress(cli_case_run *run, rb_message *why)
             st->found.y = 0.0 - st->found.y;
         }
     }
-    rb_rolling_stress_maxima none = st->maxima;
+    rb_rolling_stress_maxima none = {.bonds = 0};
     rb_rolling_shakedown *found = &st->found;
     rb_case_result_convert(&st->run, run->c->units);
     rb_rolling_solution_convert(&st->errors.scalar, run->c->units);
@@ -527,6 +528,8 @@ int cli_stress(int argc, char **argv)
     stress st = {.yield_shear = NAN};
     const cli_exit code = cli_case_run_command(&command, &st, argc, argv);
     rb_rolling_mirror_free(st.mirror);
+    rb_rolling_stress_maxima_free(&st.maxima);
+    rb_rolling_errors_free(&st.errors);
     rb_case_result_free(&st.run);
     rb_rolling_stress_grid_free(&st.at);
     rb_rolling_stress_grid_free(&st.fine);

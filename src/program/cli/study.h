@@ -38,8 +38,9 @@ typedef struct {
 /* A column behind the status: a number, or its error bar. */
 typedef struct {
     const rb_rolling_result *r;
-    enum { OF_SOLUTION, OF_STRESS, OF_STRESS_B, OF_CRACK } of;
+    enum { OF_SOLUTION, OF_STRESS, OF_STRESS_B, OF_CRACK, OF_BOND } of;
     int is_error;
+    int bond; /* which of the numbers of bonds */
 } study_result;
 
 typedef struct {
@@ -63,6 +64,9 @@ typedef struct {
     rb_io_table table;
     study_result result[RESULTS_MAX];
     int results;
+    rb_rolling_bond_number bond[RB_ROW_BONDS];       /* that are chosen */
+    rb_rolling_maximum_result bond_of[RB_ROW_BONDS]; /* their descriptions */
+    int bonds;
     rb_case_slopes slopes;         /* columns behind those of the results; n = 0: none */
     int over, family;              /* columns of the pictures; -1: none */
     int points;                    /* 1: the cases of the picture are on no grid */

@@ -151,8 +151,8 @@ static void choose(study *st, study_result wanted)
  * contact and the stress below it. */
 typedef struct {
     int n;
-    const rb_rolling_results *table[3];
-    int of[3];
+    const rb_rolling_results *table[5];
+    int of[5];
 } study_tables;
 
 /* The contact of a crack has no error bars of its own. */
@@ -167,6 +167,24 @@ static int has_meaning(const study *st, const study_result *of)
     return of->of != OF_CRACK || rb_case_crack_has_result(of->r, rb_case_crack_of(st->one));
 }
 
+/* The number of a bond of this name; 0: it is none, or there are too many. */
+static int choose_bond(study *st, const char *name, study_result *found)
+{
+    rb_rolling_bond_number b;
+    int i = 0;
+    if (st->has_crack || !rb_rolling_find_bond_number(name, &b.k, &b.part, &b.of_b))
+        return 0;
+    while (i < st->bonds && memcmp(&st->bond[i], &b, sizeof b) != 0)
+        i++;
+    if (i == RB_ROW_BONDS)
+        return 0;
+    st->bond[i] = b;
+    st->bonds += i == st->bonds;
+    *found = (study_result){rb_rolling_describe_maximum(b.k, b.part, b.of_b, &st->bond_of[i]),
+                            OF_BOND, 0, i};
+    return 1;
+}
+
 /* "error_max_pressure" is the error bar of max_pressure, which comes along. */
 static cli_exit choose_by_name(study *st, const char *option, const char *name)
 {
@@ -177,15 +195,21 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
         st->has_crack ? (study_tables){2,
                                        {&rb_case_crack_scalars, &rb_rolling_solution_scalars},
                                        {OF_CRACK, OF_SOLUTION}}
-                      : (study_tables){3,
+                      : (study_tables){5,
                                        {&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars,
-                                        &rb_rolling_maxima_b_scalars},
-                                       {OF_SOLUTION, OF_STRESS, OF_STRESS_B}};
+                                        &rb_rolling_maxima_b_scalars, &rb_rolling_bond_scalars,
+                                        &rb_rolling_bond_b_scalars},
+                                       {OF_SOLUTION, OF_STRESS, OF_STRESS_B, OF_BOND, OF_BOND}};
+    study_result of_bond;
     if (bar && !rb_case_resolved(st->base)->error)
         return cli_case_refuse(st->base, option, "'%s' needs --error", name);
+    if (choose_bond(st, own, &of_bond)) {
+        choose(st, of_bond);
+        return CLI_CONTINUE;
+    }
     for (int t = 0; t < from.n; t++)
         for (int k = 0; k < from.table[t]->n; k++) {
-            const study_result found = {&from.table[t]->row[k], from.of[t], 0};
+            const study_result found = {&from.table[t]->row[k], from.of[t], 0, 0};
             rb_guess_try(&guess, found.r->name);
             if (strcmp(found.r->name, own) != 0 || !has_meaning(st, &found))
                 continue;
@@ -204,6 +228,15 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     return cli_case_refuse(st->base, option, "no result '%s'%s%s", name, near, all);
 }
 
+/* What has to be computed of the stress for it: bits RB_ROW_... */
+static unsigned stress_needed(const study *st, const study_result *of)
+{
+    const int of_b = of->of == OF_STRESS_B || (of->of == OF_BOND && st->bond[of->bond].of_b);
+    return of->of == OF_SOLUTION || of->of == OF_CRACK ? 0U
+           : of_b                                      ? RB_ROW_STRESS_B
+                                                       : RB_ROW_STRESS;
+}
+
 /* Those of the crack, or those that the cases have and no option names, then those of
  * --results and --show, then the error bars of all; derivatives, and standard deviations of
  * the results of the contact. */
@@ -215,12 +248,12 @@ static cli_exit choose_results(study *st)
     rb_message why = {.text = ""};
     cli_exit code = CLI_CONTINUE;
     for (int k = 0; k < rb_case_crack_scalars.n && st->has_crack; k++)
-        if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0}))
-            choose(st, (study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0});
+        if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0, 0}))
+            choose(st, (study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0, 0});
     for (int k = 1; (r = rb_rolling_study_column(k)) && !st->has_crack; k++)
         if (rb_rolling_has_result(r, &one->rc, 0) &&
             !is_given(st, rb_rolling_heading(r, one->units, heading)))
-            choose(st, (study_result){r, OF_SOLUTION, 0});
+            choose(st, (study_result){r, OF_SOLUTION, 0, 0});
     char name[STUDY_HEADING];
     for (const char *at = st->o->results;
          code == CLI_CONTINUE && (at = rb_next_word(at, name, sizeof name));)
@@ -235,7 +268,8 @@ static cli_exit choose_results(study *st)
         const int n = st->results;
         for (int k = 0; k < n; k++)
             if (has_error_bar(st, &st->result[k]))
-                choose(st, (study_result){st->result[k].r, st->result[k].of, 1});
+                choose(st,
+                       (study_result){st->result[k].r, st->result[k].of, 1, st->result[k].bond});
     }
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
         code = cli_case_refuse(st->base, "derivatives", "the K of cracks have none");
@@ -266,9 +300,10 @@ static cli_exit choose_results(study *st)
         return code;
     const rb_rolling_case *rc = &rb_case_resolved(st->one)->rc;
     for (int k = 0; k < st->results; k++) {
-        const rb_status s = st->result[k].of == OF_STRESS     ? rb_rolling_stress_check(rc, &why)
-                            : st->result[k].of == OF_STRESS_B ? rb_rolling_mirror_check(rc, &why)
-                                                              : RB_OK;
+        const unsigned stress = stress_needed(st, &st->result[k]);
+        const rb_status s = stress == RB_ROW_STRESS     ? rb_rolling_stress_check(rc, &why)
+                            : stress == RB_ROW_STRESS_B ? rb_rolling_mirror_check(rc, &why)
+                                                        : RB_OK;
         if (s != RB_OK)
             return cli_case_refused(st->one, s, &why);
     }
@@ -327,6 +362,9 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
     if (result->of == OF_CRACK)
         return rb_unit_shown(units, result->r->unit,
                              rb_case_crack_of_row(result->r, result->is_error, row));
+    if (result->of == OF_BOND)
+        return rb_unit_shown(units, result->r->unit,
+                             (result->is_error ? row->bond_error : row->bond)[result->bond]);
     const rb_rolling_errors *e = &row->errors;
     const void *const owners[2][3] = {{&row->solution, &row->stress, &row->stress_b},
                                       {&e->scalar, &e->stress, &e->stress_b}};
@@ -764,12 +802,11 @@ static rb_rolling_sweep sweep_of(study *st)
 {
     unsigned also = rb_case_resolved(st->base)->error ? RB_ROW_ERRORS : 0;
     for (int k = 0; k < st->results; k++)
-        if (st->result[k].of == OF_STRESS)
-            also |= RB_ROW_STRESS;
-        else if (st->result[k].of == OF_STRESS_B)
-            also |= RB_ROW_STRESS_B;
+        also |= stress_needed(st, &st->result[k]);
     return (rb_rolling_sweep){.first = st->first,
                               .also = also,
+                              .bonds = st->bonds,
+                              .bond = st->bond,
                               .units = rb_case_resolved(st->base)->units,
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,

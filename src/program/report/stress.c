@@ -11,10 +11,13 @@ int rb_report_stress_is_inside(const rb_report_stress *s, int k)
 
 /* ---- Maxima ------------------------------------------------------------------------ */
 
-/* The k-th of the largest values, in the first of its three rows; NULL: no more. */
-static const rb_rolling_result *maximum(int k)
+static int count_maxima(const rb_rolling_stress_maxima *all)
 {
-    return 3 * k < rb_rolling_maxima_scalars.n ? &rb_rolling_maxima_scalars.row[3 * k] : NULL;
+    rb_rolling_stress_maxima copy = *all;
+    int n = 0;
+    while (rb_rolling_maximum(&copy, n))
+        n++;
+    return n;
 }
 
 static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
@@ -42,23 +45,25 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     const rb_rolling_extremum *e = s->errors ? &bar : NULL;
     /* a place is searched for until it is known to about a millionth of the half-width */
     const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
-    char value[48], x[48], y[48];
+    char value[48], x[48], y[48], place_name[RB_ROLLING_PLACE];
+    rb_rolling_maximum_result described;
+    const char *meaning = rb_rolling_describe_maximum(k, 0, 0, &described)->meaning;
     if (isnan(m->value))
         return NULL;
     if (isnan(m->x)) {
-        snprintf(line, size, "%-24s none", maximum(k)->meaning);
+        snprintf(line, size, "%-24s none", meaning);
         return line;
     }
     const int is_named = m->material != RB_MATERIAL_BODY,
               is_numbered = m->material >= RB_MATERIAL_FIRST;
-    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s%s%s; %.5g p0", maximum(k)->meaning,
+    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s%s%s; %.5g p0", meaning,
              quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
              rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
              quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
              !is_named     ? ""
              : is_numbered ? ", in "
                            : ", in the ",
-             is_named ? rb_rolling_place_name(m->material) : "",
+             is_named ? rb_rolling_place_name(m->material, place_name) : "",
              fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
     return line;
 }
@@ -150,7 +155,7 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
                 rb_unit_name(units, "MPa"), s->rc->b.poisson);
     fprintf(out, " under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
             rb_unit_name(units, "MPa"), s->s->half_width, rb_unit_name(units, "mm"));
-    for (int k = 0; maximum(k); k++)
+    for (int k = 0; k < count_maxima(s->maxima); k++)
         if (maximum_text(s, k, line, sizeof line))
             fprintf(out, "  %s\n", line);
     if (s->shakedown)
@@ -193,7 +198,7 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     rb_report_comment(&c, s->of_b
                               ? "tension positive; y < 0 inside B; the grid follows B's surface"
                               : "tension positive; y > 0 inside A; the grid follows A's surface");
-    for (int k = 0; maximum(k); k++)
+    for (int k = 0; k < count_maxima(s->maxima); k++)
         if (maximum_text(s, k, line, sizeof line))
             rb_report_comment(&c, "%s", line);
     if (s->shakedown)
@@ -261,15 +266,18 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
     }
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
-    for (int k = 0; maximum(k); k++) {
-        if (isnan(extremum(s->maxima, k).value))
+    for (int k = 0; k < count_maxima(s->maxima); k++) {
+        const rb_rolling_extremum m = extremum(s->maxima, k);
+        char place_name[RB_ROLLING_PLACE];
+        rb_rolling_maximum_result described;
+        if (isnan(m.value))
             continue;
-        json_t *one = json_extremum(extremum(s->maxima, k));
+        json_t *one = json_extremum(m);
         rb_report_json_set(&one, "material",
-                           json_string(rb_rolling_place_name(extremum(s->maxima, k).material)));
+                           json_string(rb_rolling_place_name(m.material, place_name)));
         if (s->errors)
             rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
-        rb_report_json_set(&all, maximum(k)->name, one);
+        rb_report_json_set(&all, rb_rolling_describe_maximum(k, 0, 0, &described)->name, one);
     }
     rb_report_json_set(root, "maxima", all);
     if (s->shakedown) {

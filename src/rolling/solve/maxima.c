@@ -4,6 +4,9 @@
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Places are (s, depth): along the surface and below it, the arc of a wheel's circle; each
  * material is then a strip between two depths. */
@@ -38,12 +41,24 @@ typedef struct {
     int along_bond; /* 1: stresses have the directions of the bond, not those of x and y */
 } search;
 
-const char *rb_rolling_place_name(rb_rolling_place place)
+static const char *const place_names[] = {"body", "layer", "base"};
+
+const char *rb_rolling_place_name(rb_rolling_place place, char name[RB_ROLLING_PLACE])
 {
-    static const char *const names[] = {
-        "body",    "layer",   "base",    "layer 1", "layer 2", "layer 3",          "layer 4",
-        "layer 5", "layer 6", "layer 7", "layer 8", "layer 9", "layer 10 or below"};
-    return names[place];
+    if (place < RB_MATERIAL_FIRST)
+        return place_names[place];
+    snprintf(name, RB_ROLLING_PLACE, "layer %d", (int)place - RB_MATERIAL_FIRST + 1);
+    return name;
+}
+
+int rb_rolling_place_named(const char *name)
+{
+    int layer, used = 0;
+    for (int k = 0; k < RB_MATERIAL_FIRST; k++)
+        if (strcmp(name, place_names[k]) == 0)
+            return k;
+    const int is_layer = sscanf(name, "layer %d%n", &layer, &used) == 1 && !name[used] && layer > 0;
+    return is_layer ? RB_MATERIAL_FIRST + layer - 1 : -1;
 }
 
 /* ---- Places ------------------------------------------------------------------------ */
@@ -194,11 +209,8 @@ static strip strip_of(const rb_rolling_body *a, int k, double deep)
     const double top = rb_rolling_bond_depth(a, k);
     if (k == rb_rolling_layers(a))
         return (strip){RB_MATERIAL_BASE, top, top + deep};
-    const int place = RB_MATERIAL_FIRST + k;
-    return (strip){!a->stack                  ? RB_MATERIAL_LAYER
-                   : place < RB_MATERIAL_LAST ? (rb_rolling_place)place
-                                              : RB_MATERIAL_LAST,
-                   top, rb_rolling_bond_depth(a, k + 1)};
+    return (strip){a->stack ? (rb_rolling_place)(RB_MATERIAL_FIRST + k) : RB_MATERIAL_LAYER, top,
+                   rb_rolling_bond_depth(a, k + 1)};
 }
 
 /* The middle of the widest patch of the contact.  Returns the width of the narrowest one. */
@@ -384,7 +396,7 @@ static double along(const rb_rolling_stress *s)
 }
 
 /* Of the body, and then of each bond, in its own directions. */
-enum { IN_BODY = 6, OF_BOND = 4, MEASURES = IN_BODY + OF_BOND * RB_ROLLING_BONDS };
+enum { IN_BODY = 6, OF_BOND = 4 };
 static measure *const of_body[IN_BODY] = {max_shear,        tresca_shear, von_mises,
                                           orthogonal_shear, tension,      compression},
                       *const of_bond[OF_BOND] = {across, orthogonal_shear, along, along};
@@ -401,13 +413,40 @@ rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *m, int k)
                                                &m->tension,   &m->compression};
     if (k < IN_BODY)
         return all[k];
-    if (k >= MEASURES)
+    if (k >= IN_BODY + OF_BOND * m->bonds)
         return NULL;
     const int bond = (k - IN_BODY) / OF_BOND;
     rb_rolling_extremum *const at[OF_BOND] = {&m->bond[bond].peel, &m->bond[bond].shear,
                                               &m->bond[bond].tension_above,
                                               &m->bond[bond].tension_below};
     return at[(k - IN_BODY) % OF_BOND];
+}
+
+double *rb_rolling_maximum_number(rb_rolling_stress_maxima *m, int k, int part)
+{
+    rb_rolling_extremum *at = rb_rolling_maximum(m, k);
+    return !at ? NULL : part == 0 ? &at->value : part == 1 ? &at->x : &at->y;
+}
+
+rb_status rb_rolling_stress_maxima_alloc(int bonds, rb_rolling_stress_maxima *m)
+{
+    *m = (rb_rolling_stress_maxima){.bonds = bonds};
+    m->bond = bonds ? calloc((size_t)bonds, sizeof *m->bond) : NULL;
+    if (bonds && !m->bond) {
+        m->bonds = 0;
+        return RB_ENOMEM;
+    }
+    for (int k = 0; rb_rolling_maximum(m, k); k++)
+        *rb_rolling_maximum(m, k) = (rb_rolling_extremum){
+            NAN, NAN, NAN, k < IN_BODY ? RB_MATERIAL_BODY : RB_MATERIAL_LAYER};
+    return RB_OK;
+}
+
+void rb_rolling_stress_maxima_free(rb_rolling_stress_maxima *m)
+{
+    free(m->bond);
+    m->bond = NULL;
+    m->bonds = 0;
 }
 
 /* The value at point i of a row; nothing where it is left out. */
@@ -612,24 +651,23 @@ static rb_status peak_of_bond(const search *f, const strip *in, double depth, me
 /* Peel, shear and tension along a bond, the first one being 0, if the search goes down to it; a
  * rigid base and a core have no stress of their own. */
 static rb_status maxima_of_bond(search *f, int which, double searched,
-                                rb_rolling_stress_maxima *maxima, rb_arena *memory, rb_message *why)
+                                rb_rolling_stress_maxima *maxima, rb_message *why)
 {
     const rb_rolling_body *a = &f->model->rc->a;
     const int layers = rb_rolling_layers(a);
-    const double bond = which < layers ? rb_rolling_bond_depth(a, which + 1)
-                        : which == 0   ? a->cover
-                                       : 0.0;
-    if (!(bond > 0.0) || (searched > 0.0 && searched < bond))
+    const double bond = layers > 0 ? rb_rolling_bond_depth(a, which + 1) : a->cover;
+    if (searched > 0.0 && searched < bond)
         return RB_OK;
     const int sides = which + 1 < layers || (layers > 0 && a->base_young > 0.0) ? 2 : 1;
     const strip side[2] = {layers > 0 ? strip_of(a, which, INFINITY)
                                       : (strip){RB_MATERIAL_LAYER, 0.0, bond},
                            layers > 0 ? strip_of(a, which + 1, INFINITY) : (strip){0}};
     const size_t most = (size_t)f->candidates + MOST_OUTWARDS;
-    double *s = rb_arena_doubles(memory, most, 2);
-    rb_rolling_stress *at = rb_arena_zeros(memory, most, sizeof *at);
-    if (memory->failed)
-        return RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *s = rb_arena_doubles(&scratch, most, 2);
+    rb_rolling_stress *at = rb_arena_zeros(&scratch, most, sizeof *at);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
     double *depth = s + most;
     const int n = along_the_bond(f, bond, s);
     for (int k = 0; k < n; k++)
@@ -645,7 +683,7 @@ static rb_status maxima_of_bond(search *f, int which, double searched,
                                  rb_rolling_maximum(maxima, IN_BODY + which * OF_BOND + i), why);
     }
     f->along_bond = 0;
-    return status;
+    return rb_arena_done(&scratch, status);
 }
 
 /* ---- Far from the contact ---------------------------------------------------------- */
@@ -682,7 +720,7 @@ static rb_status tension_far_away(search *f, int layer, int at_bottom, int n, do
     const double deep = at_bottom ? in.bottom : in.top;
     const int bond = layer - !at_bottom;
     rb_rolling_extremum found, *const to[2] = {&maxima->tension,
-                                               bond < 0 || bond >= RB_ROLLING_BONDS ? NULL
+                                               bond < 0    ? NULL
                                                : at_bottom ? &maxima->bond[bond].tension_above
                                                            : &maxima->bond[bond].tension_below};
     for (int k = 0; k < n; k++)
@@ -725,6 +763,13 @@ static rb_status look_far(search *f, double searched, rb_rolling_stress_maxima *
     return status;
 }
 
+/* Of the layers of a half-plane, the last of which lies on the base, or of a cover. */
+static int bonds_of(const rb_rolling_body *a)
+{
+    const int layers = rb_rolling_layers(a);
+    return layers > 0 ? layers : a->cover > 0.0;
+}
+
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
@@ -733,12 +778,14 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     rb_arena memory = {0};
     search f = {.model = model};
 
-    for (int i = 0; i < MEASURES; i++)
-        *rb_rolling_maximum(maxima, i) =
-            i < IN_BODY ? none : (rb_rolling_extremum){NAN, NAN, NAN, RB_MATERIAL_LAYER};
+    *maxima = (rb_rolling_stress_maxima){.bonds = 0};
     rb_status s = rb_rolling_stress_check(model->rc, why);
+    if (s == RB_OK && rb_rolling_stress_maxima_alloc(bonds_of(&model->rc->a), maxima) != RB_OK)
+        s = rb_fail(why, RB_ENOMEM, "out of memory for the largest stresses");
     if (s != RB_OK)
         return s;
+    for (int i = 0; i < IN_BODY; i++)
+        *rb_rolling_maximum(maxima, i) = none;
     if (!rb_rolling_next_patch(model->rc, &model->mesh, &model->state, 0, &run))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     rb_phase("the largest stresses");
@@ -751,8 +798,8 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
         s = compute_stress(&f, why);
     for (int i = 0; i < IN_BODY && s == RB_OK; i++)
         s = maximum(&f, of_body[i], rb_rolling_maximum(maxima, i), why);
-    for (int k = 0; k < RB_ROLLING_BONDS && s == RB_OK; k++)
-        s = maxima_of_bond(&f, k, depth, maxima, &memory, why);
+    for (int k = 0; k < maxima->bonds && s == RB_OK; k++)
+        s = maxima_of_bond(&f, k, depth, maxima, why);
     if (s == RB_OK)
         s = look_far(&f, depth, maxima, &memory, why);
     rb_rolling_field_free(f.field);
@@ -763,11 +810,15 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
 rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
                                       rb_rolling_stress_maxima *maxima, rb_message *why)
 {
-    double xy[2 * MEASURES];
-    rb_rolling_stress at[MEASURES];
-    int n = 0, which[MEASURES];
+    const int measures = IN_BODY + OF_BOND * maxima->bonds;
+    rb_arena memory = {0};
+    double *xy = rb_arena_doubles(&memory, (size_t)measures, 2);
+    rb_rolling_stress *at = rb_arena_zeros(&memory, (size_t)measures, sizeof *at);
+    int n = 0, *which = rb_arena_zeros(&memory, (size_t)measures, sizeof *which);
 
-    for (int k = 0; k < MEASURES; k++) {
+    if (memory.failed)
+        return rb_arena_done(&memory, RB_ENOMEM);
+    for (int k = 0; k < measures; k++) {
         const rb_rolling_extremum *m = rb_rolling_maximum(maxima, k);
         if (isnan(m->x)) /* a bond without it, or none */
             continue;
@@ -785,12 +836,10 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
         which[n++] = k;
     }
     const rb_status s = rb_rolling_stress_at(model, n, xy, at, why);
-    if (s != RB_OK)
-        return s;
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < n && s == RB_OK; k++) {
         if (which[k] >= IN_BODY && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
             turn(model->rc->a.radius, &at[k]);
         rb_rolling_maximum(maxima, which[k])->value = measure_of(which[k])(&at[k]);
     }
-    return RB_OK;
+    return rb_arena_done(&memory, s);
 }

@@ -380,33 +380,33 @@ static const rb_rolling_result stresses[] = {
 };
 
 /* of: behind the names of body B's */
+#define LARGEST_OF(owner, name, of, member, words)                                                 \
+    OF(owner, name of, member.value, .unit = "MPa", .error_bar = RB_SCALE_PRESSURE,                \
+       .meaning = words),                                                                          \
+        OF(owner, name "_x" of, member.x, .unit = "mm", .error_bar = RB_SCALE_WIDTH,               \
+           .meaning = "its place along the surface"),                                              \
+        OF(owner, name "_y" of, member.y, .unit = "mm", .error_bar = RB_SCALE_WIDTH,               \
+           .meaning = "its depth")
 #define LARGEST(name, of, member, words)                                                           \
-    OF(rb_rolling_stress_maxima, name of, member.value, .unit = "MPa",                             \
-       .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                          \
-        OF(rb_rolling_stress_maxima, name "_x" of, member.x, .unit = "mm",                         \
-           .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),                 \
-        OF(rb_rolling_stress_maxima, name "_y" of, member.y, .unit = "mm",                         \
-           .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
-#define BOND(name, k, of, in)                                                                      \
-    LARGEST("bond_" #name "_peel", of, bond[k].peel, "peel at bond " #name in),                    \
-        LARGEST("bond_" #name "_shear", of, bond[k].shear, "shear at bond " #name in),             \
-        LARGEST("bond_" #name "_tension_above", of, bond[k].tension_above,                         \
-                "tension above bond " #name in),                                                   \
-        LARGEST("bond_" #name "_tension_below", of, bond[k].tension_below,                         \
-                "tension below bond " #name in)
+    LARGEST_OF(rb_rolling_stress_maxima, name, of, member, words)
+#define OF_BOND(name, of, member, words)                                                           \
+    LARGEST_OF(rb_rolling_bond_maxima, "bond_1_" name, of, member, words)
+#define BOND(of, in)                                                                               \
+    OF_BOND("peel", of, peel, "peel at bond 1" in),                                                \
+        OF_BOND("shear", of, shear, "shear at bond 1" in),                                         \
+        OF_BOND("tension_above", of, tension_above, "tension above bond 1" in),                    \
+        OF_BOND("tension_below", of, tension_below, "tension below bond 1" in)
 #define MAXIMA(of, in)                                                                             \
     LARGEST("max_shear", of, max_shear, "in-plane shear" in),                                      \
         LARGEST("tresca_shear", of, tresca_shear, "largest (Tresca) shear" in),                    \
         LARGEST("von_mises", of, von_mises, "von Mises" in),                                       \
         LARGEST("orthogonal_shear", of, orthogonal_shear, "orthogonal shear |sxy|" in),            \
         LARGEST("tension", of, tension, "largest principal stress" in),                            \
-        LARGEST("compression", of, compression, "largest compression" in), BOND(1, 0, of, in),     \
-        BOND(2, 1, of, in), BOND(3, 2, of, in), BOND(4, 3, of, in)
-
-_Static_assert(RB_ROLLING_BONDS == 4, "a row for each");
+        LARGEST("compression", of, compression, "largest compression" in)
 
 static const rb_rolling_result maxima[] = {MAXIMA("", "")};
 static const rb_rolling_result maxima_b[] = {MAXIMA("_b", " in B")};
+static const rb_rolling_result bond[] = {BOND("", "")}, bond_b[] = {BOND("_b", " in B")};
 
 #define TABLE(rows)                                                                                \
     {                                                                                              \
@@ -421,6 +421,8 @@ const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
 const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
 const rb_rolling_results rb_rolling_maxima_scalars = TABLE(maxima);
 const rb_rolling_results rb_rolling_maxima_b_scalars = TABLE(maxima_b);
+const rb_rolling_results rb_rolling_bond_scalars = TABLE(bond);
+const rb_rolling_results rb_rolling_bond_b_scalars = TABLE(bond_b);
 
 const rb_rolling_result_table rb_rolling_result_tables[] = {
     {"number", "Numbers of a solution", &rb_rolling_solution_scalars},
@@ -431,8 +433,57 @@ const rb_rolling_result_table rb_rolling_result_tables[] = {
     {"wear", "Steps of wear", &rb_rolling_wear_columns},
     {"stress", "Stress at a point", &rb_rolling_stress_scalars},
     {"maximum", "Largest stresses", &rb_rolling_maxima_scalars},
+    {"bond",
+     "Largest stresses at a bond: `bond_1_...`, `bond_2_...` and so on from the surface down",
+     &rb_rolling_bond_scalars},
     {"maximum_b", "Largest stresses of body B", &rb_rolling_maxima_b_scalars},
+    {"bond_b", "Largest stresses at a bond of body B", &rb_rolling_bond_b_scalars},
     {NULL, NULL, NULL}};
+
+/* ---- Names of bonds ---------------------------------------------------------------- */
+
+static const char FIRST_BOND[] = "bond_1_";
+
+const rb_rolling_result *rb_rolling_describe_maximum(int k, int part, int of_b,
+                                                     rb_rolling_maximum_result *described)
+{
+    const rb_rolling_results *own =
+                                 of_b ? &rb_rolling_maxima_b_scalars : &rb_rolling_maxima_scalars,
+                             *first = of_b ? &rb_rolling_bond_b_scalars : &rb_rolling_bond_scalars;
+    const int i = 3 * k + part, beyond = i - own->n, which = beyond / first->n + 1;
+    if (beyond < 0)
+        return &own->row[i];
+    const rb_rolling_result *r = &first->row[beyond % first->n];
+    const char *digit = strstr(r->meaning, "bond 1");
+    described->result = *r;
+    snprintf(described->name, sizeof described->name, "bond_%d_%s", which,
+             r->name + strlen(FIRST_BOND));
+    snprintf(described->meaning, sizeof described->meaning, "%.*s%.0d%s",
+             digit ? (int)(digit - r->meaning) + 5 : (int)strlen(r->meaning), r->meaning,
+             digit ? which : 0, digit ? digit + 6 : "");
+    described->result.name = described->name;
+    described->result.meaning = described->meaning;
+    return &described->result;
+}
+
+int rb_rolling_find_bond_number(const char *name, int *k, int *part, int *of_b)
+{
+    int which, used = 0;
+    if (sscanf(name, "bond_%d_%n", &which, &used) != 1 || !used || which < 1 || which > 1000000)
+        return 0;
+    for (*of_b = 0; *of_b < 2; ++*of_b) {
+        const rb_rolling_results *first =
+            *of_b ? &rb_rolling_bond_b_scalars : &rb_rolling_bond_scalars;
+        for (int i = 0; i < first->n; i++)
+            if (strcmp(first->row[i].name + strlen(FIRST_BOND), name + used) == 0) {
+                const int number = rb_rolling_maxima_scalars.n + (which - 1) * first->n + i;
+                *k = number / 3;
+                *part = number % 3;
+                return 1;
+            }
+    }
+    return 0;
+}
 
 /* ---- Values ------------------------------------------------------------------------ */
 
@@ -637,6 +688,8 @@ void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_m
     for (int k = 0; k < n && units != RB_UNITS_MM; k++)
         rb_rolling_numbers_convert(&rb_rolling_stress_scalars, &at[k], units);
     rb_rolling_numbers_convert(&rb_rolling_maxima_scalars, largest, units);
+    for (int k = 0; k < largest->bonds; k++)
+        rb_rolling_numbers_convert(&rb_rolling_bond_scalars, &largest->bond[k], units);
 }
 
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)
@@ -669,6 +722,8 @@ rb_rolling_row rb_rolling_no_row(rb_status status)
                 *(double *)place(&maxima[i], &row.errors.stress_b) = NAN;
     for (int i = 0; i < RB_ROW_OWN; i++)
         row.own[i] = NAN;
+    for (int i = 0; i < RB_ROW_BONDS; i++)
+        row.bond[i] = row.bond_error[i] = NAN;
     return row;
 }
 

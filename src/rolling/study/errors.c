@@ -267,6 +267,8 @@ typedef struct {
     rb_rolling_stress_maxima stress[2]; /* of A and B */
 } sample;
 
+enum { TABLES = 3 };
+
 /* Which of them are asked for. */
 typedef struct {
     int of[2];
@@ -277,19 +279,48 @@ typedef struct {
     rb_rolling_errors contact, boundary;
 } error_parts;
 
-/* The tables of what has error bars: of a solution, and of the largest stresses of both bodies. */
-static const rb_rolling_results *const tables[] = {
-    &rb_rolling_solution_scalars, &rb_rolling_maxima_scalars, &rb_rolling_maxima_b_scalars};
-enum { TABLES = 3 };
+/* What has error bars: numbers of a solution, and of the largest stresses of A and of B. */
+typedef struct {
+    rb_rolling_solution *scalar;
+    rb_rolling_stress_maxima *stress[2];
+} numbers;
 
-static const void *part_of_sample(const sample *s, int table)
+static numbers numbers_of(sample *s)
 {
-    return table ? (const void *)&s->stress[table - 1] : &s->solution;
+    return (numbers){&s->solution, {&s->stress[0], &s->stress[1]}};
 }
 
-static void *part_of_errors(rb_rolling_errors *e, int table)
+static numbers errors_of(rb_rolling_errors *e)
 {
-    return table == 0 ? (void *)&e->scalar : table == 1 ? &e->stress : &e->stress_b;
+    return (numbers){&e->scalar, {&e->stress, &e->stress_b}};
+}
+
+/* Number k of the scalars, table 0, or of a body's stress, 1 and 2; NULL: there are no more. */
+static double *number_at(const numbers *of, int table, int k, rb_rolling_error_scale *scale)
+{
+    if (table > 0) {
+        *scale = k % 3 == 0 ? RB_SCALE_PRESSURE : RB_SCALE_WIDTH;
+        return rb_rolling_maximum_number(of->stress[table - 1], k / 3, k % 3);
+    }
+    if (k >= rb_rolling_solution_scalars.n)
+        return NULL;
+    const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+    *scale = r->error_bar;
+    return (double *)(void *)((char *)of->scalar + r->offset);
+}
+
+void rb_rolling_errors_free(rb_rolling_errors *errors)
+{
+    rb_rolling_stress_maxima_free(&errors->stress);
+    rb_rolling_stress_maxima_free(&errors->stress_b);
+}
+
+/* NANs of so many bonds of A and of B. */
+static rb_status errors_alloc(int bonds, int bonds_b, rb_rolling_errors *errors)
+{
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    const rb_status s = rb_rolling_stress_maxima_alloc(bonds, &errors->stress);
+    return s == RB_OK ? rb_rolling_stress_maxima_alloc(bonds_b, &errors->stress_b) : s;
 }
 
 /* Where a coarser run has no stick at all: the zone is shorter than its elements, of
@@ -307,21 +338,36 @@ static double take_unseen(const rb_rolling_solution *s, int runs, double value, 
     return longest;
 }
 
-static void add_parts(error_parts *parts, rb_rolling_errors *errors)
+static rb_status add_parts(error_parts *parts, rb_rolling_errors *errors)
 {
-    *errors = rb_rolling_no_row(RB_OK).errors;
-    for (int t = 0; t < TABLES; t++)
-        for (int k = 0; k < tables[t]->n; k++) {
-            const rb_rolling_result *r = &tables[t]->row[k];
-            if (r->error_bar != RB_SCALE_NONE)
-                rb_rolling_set_number(
-                    r, part_of_errors(errors, t),
-                    rb_rolling_number(r, part_of_errors(&parts->contact, t)) +
-                        rb_rolling_number(r, part_of_errors(&parts->boundary, t)));
-        }
+    const numbers contact = errors_of(&parts->contact), boundary = errors_of(&parts->boundary);
+    const rb_status s =
+        errors_alloc(parts->contact.stress.bonds, parts->contact.stress_b.bonds, errors);
+    const numbers sum = errors_of(errors);
+    rb_rolling_error_scale scale;
+    const double *x;
+
+    for (int t = 0; t < TABLES && s == RB_OK; t++)
+        for (int k = 0; (x = number_at(&contact, t, k, &scale)); k++)
+            if (scale != RB_SCALE_NONE)
+                *number_at(&sum, t, k, &scale) = *x + *number_at(&boundary, t, k, &scale);
+    return s;
+}
+
+static void parts_free(error_parts *parts)
+{
+    rb_rolling_errors_free(&parts->contact);
+    rb_rolling_errors_free(&parts->boundary);
 }
 
 /* ---- One case and its error bars --------------------------------------------------- */
+
+static void sample_free(sample *s)
+{
+    rb_rolling_solution_free(&s->solution);
+    for (int body = 0; body < 2; body++)
+        rb_rolling_stress_maxima_free(&s->stress[body]);
+}
 
 static rb_status take_sample(const rb_rolling_case *rc, asked_stress with, sample *s,
                              rb_message *why)
@@ -372,39 +418,44 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
     int fewest = 24;
     for (int k = 0; k < patches; k++)
         fewest = own->solution.patch[k].contact < fewest ? own->solution.patch[k].contact : fewest;
-    const double of_own = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
+    const double other_is = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
     rb_rolling_case other_mesh = *rc;
-    other_mesh.contact_elements = (int)(of_own * rc->contact_elements);
+    other_mesh.contact_elements = (int)(other_is * rc->contact_elements);
     const int has_another =
         status == RB_OK && patches > 1 && take_sample(&other_mesh, with, &another, NULL) == RB_OK;
-    if (status == RB_OK) {
-        double coarser[RB_ERROR_RUNS];
-
-        parts->contact = parts->boundary = rb_rolling_no_row(RB_OK).errors;
-        for (int t = 0; t < TABLES; t++)
-            for (int k = 0; k < tables[t]->n && (t == 0 || with.of[t - 1]); k++) {
-                const rb_rolling_result *r = &tables[t]->row[k];
-                if (r->error_bar == RB_SCALE_NONE)
-                    continue;
-                const double value = rb_rolling_number(r, part_of_sample(own, t));
-                for (int j = 0; j < runs; j++)
-                    coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
-                const double unseen = r->error_bar == RB_SCALE_ELEMENT
-                                          ? take_unseen(&own->solution, runs, value, coarser)
-                                          : 0.0;
-                const double other =
-                    has_another ? rb_rolling_number(r, part_of_sample(&another, t)) : NAN;
-                rb_rolling_set_number(r, part_of_errors(&parts->contact, t),
-                                      contact_error_with(coarser, value, other, of_own > 1.0) +
-                                          least_error(rc, &own->solution, t > 0, r->error_bar) +
-                                          unseen);
-                rb_rolling_set_number(r, part_of_errors(&parts->boundary, t),
-                                      rb_rolling_boundary_error(runs, coarser, value));
+    rb_rolling_errors *const part_of[] = {&parts->contact, &parts->boundary};
+    for (int k = 0; k < 2 && status == RB_OK; k++)
+        status = errors_alloc(own->stress[0].bonds, own->stress[1].bonds, part_of[k]);
+    sample mine = *own;
+    const numbers of_own = numbers_of(&mine), contact = errors_of(&parts->contact),
+                  boundary = errors_of(&parts->boundary);
+    for (int t = 0; t < TABLES && status == RB_OK; t++) {
+        rb_rolling_error_scale scale;
+        const double *value;
+        for (int k = 0; (value = number_at(&of_own, t, k, &scale)); k++) {
+            double coarser[RB_ERROR_RUNS], other = NAN;
+            if (scale == RB_SCALE_NONE || (t > 0 && !with.of[t - 1]))
+                continue;
+            for (int j = 0; j < runs; j++) {
+                const numbers of_run = numbers_of(&run[j]);
+                coarser[j] = *number_at(&of_run, t, k, &scale);
             }
+            if (has_another) {
+                const numbers of_other = numbers_of(&another);
+                other = *number_at(&of_other, t, k, &scale);
+            }
+            const double unseen = scale == RB_SCALE_ELEMENT
+                                      ? take_unseen(&own->solution, runs, *value, coarser)
+                                      : 0.0;
+            *number_at(&contact, t, k, &scale) =
+                contact_error_with(coarser, *value, other, other_is > 1.0) +
+                least_error(rc, &own->solution, t > 0, scale) + unseen;
+            *number_at(&boundary, t, k, &scale) = rb_rolling_boundary_error(runs, coarser, *value);
+        }
     }
     for (int k = 0; k < runs; k++)
-        rb_rolling_solution_free(&run[k].solution);
-    rb_rolling_solution_free(&another.solution);
+        sample_free(&run[k]);
+    sample_free(&another);
     return status;
 }
 
@@ -418,6 +469,7 @@ rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling
     error_parts parts;
     rb_status status = rb_rolling_error_check(rc, why);
 
+    memset(&parts, 0, sizeof parts);
     if (stress)
         own.stress[0] = *stress;
     if (stress_b)
@@ -426,7 +478,8 @@ rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling
     if (status == RB_OK)
         status = find_parts(rc, with, &own, &parts, why);
     if (status == RB_OK)
-        add_parts(&parts, errors);
+        status = add_parts(&parts, errors);
+    parts_free(&parts);
     return status;
 }
 
@@ -451,9 +504,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_sol
     *errors = rb_rolling_no_row(RB_OK).errors;
     if (status == RB_OK)
         status = solve_parts(rc, solution, &parts, why);
-    if (status == RB_OK)
-        add_parts(&parts, errors);
-    return status;
+    return status == RB_OK ? add_parts(&parts, errors) : status; /* no bonds, nothing to free */
 }
 
 /* ---- To a given accuracy ----------------------------------------------------------- */

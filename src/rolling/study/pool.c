@@ -37,12 +37,39 @@ static processes *processes_of(rb_rolling_pool *pool)
 
 /* ---- One worker -------------------------------------------------------------------- */
 
+/* Numbers of bonds that are not there stay NAN. */
+static void keep_stress(const rb_rolling_sweep *sweep, rb_rolling_stress_maxima stress[2],
+                        rb_rolling_errors *errors, rb_rolling_row *row)
+{
+    rb_rolling_stress_maxima *const bars[] = {&errors->stress, &errors->stress_b};
+    for (int i = 0; i < sweep->bonds; i++) {
+        const rb_rolling_bond_number *b = &sweep->bond[i];
+        const double *x = rb_rolling_maximum_number(&stress[b->of_b], b->k, b->part),
+                     *bar = rb_rolling_maximum_number(bars[b->of_b], b->k, b->part);
+        row->bond[i] = x ? *x : NAN;
+        row->bond_error[i] = bar ? *bar : NAN;
+    }
+    row->errors = *errors;
+    if (sweep->also & RB_ROW_STRESS)
+        row->stress = stress[0];
+    if (sweep->also & RB_ROW_STRESS_B)
+        row->stress_b = stress[1];
+    rb_rolling_stress_maxima *const own[] = {&row->stress, &row->stress_b, &row->errors.stress,
+                                             &row->errors.stress_b};
+    for (int i = 0; i < 4; i++) { /* a row is sent as it stands */
+        own[i]->bonds = 0;
+        own[i]->bond = NULL;
+    }
+}
+
 void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
                            rb_message *why)
 {
     rb_rolling_case rc;
     rb_rolling_model model = {0};
     rb_rolling_solution solution = {0};
+    rb_rolling_stress_maxima stress[2] = {{.bonds = 0}, {.bonds = 0}};
+    rb_rolling_errors errors;
 
     *row = rb_rolling_no_row(RB_OK);
     if (sweep->solve) {
@@ -57,15 +84,22 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
     /* What a row has besides the solution. */
     const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
     const int with_stress_b = (sweep->also & RB_ROW_STRESS_B) != 0;
+    errors = row->errors;
     if (s == RB_OK && with_stress)
-        s = rb_rolling_stress_maxima_find(&model, 0.0, &row->stress, why);
+        s = rb_rolling_stress_maxima_find(&model, 0.0, &stress[0], why);
     if (s == RB_OK && with_stress_b)
-        s = rb_rolling_stress_maxima_of_b(&model, 0.0, &row->stress_b, why);
+        s = rb_rolling_stress_maxima_of_b(&model, 0.0, &stress[1], why);
+    const int has_all = s == RB_OK;
     if (s == RB_OK && sweep->measure)
         s = sweep->measure(&model, row->own, sweep->context, why);
     if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
-        s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &row->stress : NULL,
-                                       with_stress_b ? &row->stress_b : NULL, &row->errors, why);
+        s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &stress[0] : NULL,
+                                       with_stress_b ? &stress[1] : NULL, &errors, why);
+    if (has_all)
+        keep_stress(sweep, stress, &errors, row);
+    rb_rolling_errors_free(&errors);
+    for (int body = 0; body < 2; body++)
+        rb_rolling_stress_maxima_free(&stress[body]);
     row->solution.status = s;
     if (s >= 0 && solution.p) {
         rb_rolling_solution_convert(&solution, sweep->units);
