@@ -12,18 +12,18 @@ static const struct {
 } layers[] = {
     {"base", " base blas sparse units "},
     {"base/io", " base units sparse io io_fclib io_contact "},
-    {"bem", " base blas sparse bem "},
-    {"lcp/lemke", " base blas lcp "},
-    {"lcp/portfolio", " base blas lcp "},
+    {"bem", " base sizes blas sparse bem "},
+    {"lcp/lemke", " base sizes blas lcp "},
+    {"lcp/portfolio", " base sizes blas lcp "},
     {"lcp/proof", " base lcp "},
-    {"lcp/contact", " base lcp contact "},
-    {"lcp/friction", " base blas sparse io io_fclib lcp contact friction "},
-    {"rolling/case", " base units io io_contact rolling options case "},
-    {"rolling/body", " base blas units bem lcp contact rolling options "},
-    {"rolling/solve", " base blas units bem lcp contact rolling options "},
+    {"lcp/contact", " base sizes lcp contact "},
+    {"lcp/friction", " base sizes blas sparse io io_fclib lcp contact friction "},
+    {"rolling/case", " base sizes units io io_contact rolling options case "},
+    {"rolling/body", " base sizes blas units bem lcp contact rolling options "},
+    {"rolling/solve", " base sizes blas units bem lcp contact rolling options "},
     {"rolling/history", " base blas units bem lcp contact rolling options "},
     {"rolling/study", " base blas units bem lcp contact rolling options "},
-    {"rolling", " base units bem contact rolling options "},
+    {"rolling", " base sizes units bem contact rolling options "},
     {"analysis/crack", " base lcp bem contact crack rolling case "},
     {"analysis/sensitivity", " derivatives base blas contact rolling options sensitivity case "},
     {"analysis/fit", " derivatives base io contact rolling options sensitivity case "},
@@ -99,7 +99,7 @@ static int height_of(const char *file)
 /* A header by which a folder is used from others: src/a/b/b.h, and few others. */
 static int is_door(const char *folder, const char *name)
 {
-    static const char others[] = " base/blas base/sparse base/units base/io/io_contact "
+    static const char others[] = " base/blas base/sizes base/sparse base/units base/io/io_contact "
                                  "base/io/io_fclib rolling/case/closed_forms "
                                  "rolling/case/options rolling/case/rubber "
                                  "analysis/sensitivity/derivatives "

@@ -4,6 +4,7 @@
 #define ROLLBEM_SRC_BEM_BEM_H
 
 #include "base/base.h"
+#include "base/sizes.h"
 #include "rollbem/bem.h"
 
 /* ---- Elasticity ------------------------------------------------------------------ */
@@ -48,9 +49,8 @@ double rb_bem_system_bytes(int n, int n_c);
  * "plain". */
 const char *rb_bem_vector_name(void);
 
-/* With this number of elements or more the matrix is hierarchical: the flexibility agrees
+/* With RB_BEM_HIERARCHICAL elements or more the matrix is hierarchical: the flexibility agrees
  * to 1e-8, the work is about n log n, the memory of order n. */
-enum { RB_BEM_HIERARCHICAL = 1500 };
 
 /* As rb_bem_system_create; a hierarchical matrix is compressed to the relative tolerance
  * `compression`, if that is less than usual (at most 1e-9), for systems whose difference is

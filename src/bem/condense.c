@@ -3,6 +3,7 @@
  * the flexibility F, w = w0 + F r.  The singular part of each load is in closed form if required
  * (B10). */
 #include "bem/system.h"
+#include "base/sizes.h"
 #include "bem/assemble.h"
 #include "bem/given.h"
 #include "bem/internal.h"
@@ -25,7 +26,7 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
         return rb_bem_system_solve_columns(s, 2 * s->mesh.contact_n + 1, X);
     const int n = s->dofs, ld = s->ld, loads = 2 * s->mesh.contact_n, kept = loads + 2;
     const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
-    const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
+    const int threads = rb_blas_threads(n >= RB_BEM_LU_THREADS_FROM ? 0 : 1);
 
     LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, ld, 1, n, s->pivot, 1);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n, loads + 1, 1.0,

@@ -1,13 +1,11 @@
 #include "bem/fourier.h"
+#include "base/sizes.h"
 #include "base/blas.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
-
-/* Below this length a transform is over before a second thread has begun. */
-enum { THREADS_FROM = 1 << 17 };
 
 double *rb_fourier_alloc(const rb_fourier *f)
 {
@@ -41,7 +39,7 @@ int rb_fourier_make(int least, rb_fourier *f)
         if (!prepared)
             prepared = fftw_init_threads();
 #ifdef _OPENMP
-        fftw_plan_with_nthreads(f->size >= THREADS_FROM ? rb_blas_loop_threads() : 1);
+        fftw_plan_with_nthreads(f->size >= RB_FOURIER_THREADS_FROM ? rb_blas_loop_threads() : 1);
 #endif
         f->forward = fftw_plan_dft_1d(half, work, work, FFTW_FORWARD, FFTW_ESTIMATE);
         f->backward = fftw_plan_dft_1d(half, work, work, FFTW_BACKWARD, FFTW_ESTIMATE);

@@ -3,6 +3,7 @@
  * square matrix A, what is given the right-hand side b: A x = b, factored once.  Contact tractions
  * come later: Gc keeps their columns of G. */
 #include "bem/system.h"
+#include "base/sizes.h"
 #include "bem/assemble.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
@@ -200,7 +201,7 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
         rb_status status = RB_ENOMEM;
 
         if (work && iwork) {
-            const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
+            const int threads = rb_blas_threads(n >= RB_BEM_LU_THREADS_FROM ? 0 : 1);
             LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, s->ld, s->pivot);
             rb_blas_threads(threads);
             LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond, work,

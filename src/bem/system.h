@@ -8,9 +8,6 @@
 
 #include <lapacke.h>
 
-/* Order from which on the LU is worth more than one thread. */
-enum { PARALLEL_LU = 1500 };
-
 /* Unknowns: the displacement where the traction is given or kept, else the traction,
  * measured in shear/length of the element so that all columns of A are of order one.
  * Their order is that of the contour, turned so that the contact and the upstream element

@@ -4,24 +4,12 @@
 #define ROLLBEM_SRC_ROLLING_ROLLING_H
 
 #include "base/units.h"
+#include "base/sizes.h"
 #include "bem/bem.h"
 #include "lcp/contact/contact.h"
 #include "rollbem/rolling.h"
 
 /* ---- Case ------------------------------------------------------------------------ */
-
-/* From how many equal elements on half-planes are solved by Fourier transforms, without a
- * matrix: steady rolling, with every friction law (on aligned meshes as fast as the
- * matrix at 150 elements, 2 to 4 times faster at 800); static contact, steps and wear (as
- * fast at 300, twice as fast at 600, 2 to 5 times at 1200).  Below RB_ROLLING_LARGE a
- * matrix can be added where something needs it (rb_rolling_model_add_matrix); from there
- * on it would take seconds. */
-enum {
-    RB_ROLLING_TRANSFORMS = 150,
-    RB_ROLLING_TRANSFORMS_FITTED = 240, /* fitted elements, with those outside the contact */
-    RB_ROLLING_TRANSFORMS_STEPS = 400,
-    RB_ROLLING_LARGE = 1500
-};
 
 /* The most of each that a case may ask for: elements of the contact and on the circle outside
  * it, steps of a history, points of a curve. */

@@ -1,11 +1,9 @@
 /* The operator as matrices: products by BLAS, zones solved by an LU that is kept. */
 #include "lcp/contact/dense.h"
+#include "base/sizes.h"
 
 #include <cblas.h>
 #include <stdlib.h>
-
-/* Unknowns that GMRES finds sooner than an LU. */
-enum { LEAST_BY_PRODUCTS = 200 };
 
 /* Solves with one LU before it is given up, and the relative correction that is the last
  * one: the next would be rounding.  Where friction has turned slightly each falls by the
@@ -164,5 +162,5 @@ rb_contact_operator *rb_contact_operator_by_products(rb_contact_operator *op, in
 {
     if (!op->matrix.F)
         return op;
-    return unknowns >= LEAST_BY_PRODUCTS ? ((const rb_contact_dense *)op)->products : NULL;
+    return unknowns >= RB_CONTACT_PRODUCTS_FROM ? ((const rb_contact_dense *)op)->products : NULL;
 }

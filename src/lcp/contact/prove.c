@@ -1,6 +1,7 @@
 /* Proof that the contact problem has a solution with these zones: its pivoted form (K5), whose
  * coefficients are those of the operator, and the unknowns that the state means. */
 #include "lcp/contact/contact.h"
+#include "base/sizes.h"
 #include "lcp/contact/internal.h"
 
 #include <cblas.h>
@@ -8,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of an operator without matrices they are formed up to this number of elements. */
-enum { MOST_FORMED = 1500 };
 /* Below this part of mu p a distance to the bound of friction is rounding: where the proof begins.
  */
 static const double NOTHING = 1e-12;
@@ -152,10 +151,6 @@ static rb_status prove_part(int n, const double *A, int ld, int border, const do
 
 /* ---- Uniqueness where pressure and friction act on each other ----------------------------- */
 
-/* Elements up to which the energy test is tried: it takes up to 77 factors of matrices twice as
- * large. */
-enum { MOST_COUPLED = 300 };
-
 /* Two solutions have dp_i dy_i <= 0 and dt_i ds_i <= mu_i |dp_i| |ds_i| (p pressures, y gaps, t
  * friction, s slips = [S_N S_T] x with x = (dp, dt)), so that for all d, kappa, alpha > 0
  *
@@ -229,7 +224,7 @@ static rb_status prove_coupled(const rb_contact_problem *p, const rb_contact_mat
     rb_arena scratch = {0};
     energy e = {.n = n, .K = K, .mu = p->bound};
     *unique = 0;
-    if (n > MOST_COUPLED)
+    if (n > RB_CONTACT_PROOF_COUPLED_UP_TO)
         return RB_OK;
     double **matrices[] = {&e.H, &e.G, &e.G_size, &e.E, &e.radius, &e.factor};
     for (size_t k = 0; k < sizeof matrices / sizeof *matrices; k++)
@@ -328,7 +323,7 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
                                 .margin = NAN,
                                 .norm = NAN};
     if (!rb_contact_operator_matrix(p.op).F) {
-        if (n > MOST_FORMED) {
+        if (n > RB_CONTACT_PROOF_FORMS_UP_TO) {
             proof->reason = "too many elements for a matrix";
             return RB_OK;
         }

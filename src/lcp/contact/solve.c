@@ -1,12 +1,11 @@
 /* The order in which the attempts of Lemke's method and Newton's method are made. */
 #include "lcp/contact/internal.h"
+#include "base/sizes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The largest contact that `auto` gives to Lemke. */
-enum { LEMKE_UP_TO = 120 };
 /* On the way to all of the friction: where it begins at the earliest, and the least step,
  * as shares of it. */
 enum { MOST_HALVINGS = 6 };
@@ -358,7 +357,7 @@ static rb_status solve_given(rb_contact_problem *problem, const rb_contact_optio
     const int has_matrix = rb_contact_operator_matrix(problem->op).F != NULL;
     const int newton_first =
         !has_matrix || options->solver == RB_SOLVER_NEWTON ||
-        (options->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
+        (options->solver == RB_SOLVER_AUTO && (warm || problem->n > RB_CONTACT_LEMKE_UP_TO));
     int count = 0;
 
     if (newton_first && warm)
@@ -444,7 +443,8 @@ static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_op
     }
     if (s > 0)
         s = solve_from_coulomb(problem, options, 0, 1, state, why);
-    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO && rb_contact_operator_matrix(problem->op).F)
+    if (s > 0 && !lemke && problem->n <= RB_CONTACT_LEMKE_UP_TO &&
+        rb_contact_operator_matrix(problem->op).F)
         s = solve_lemke(problem, options, state, why);
     return proven(s, problem, options, state);
 }

@@ -10,6 +10,7 @@
  * Operations are counted by formulas, so that the same problem always takes the same
  * path. */
 #include "lcp/friction/internal.h"
+#include "base/sizes.h"
 
 #include <limits.h>
 #include <math.h>
@@ -175,9 +176,6 @@ static void end_stage(member *a)
 
 /* ---- Stages ------------------------------------------------------------------------ */
 
-/* Dense tableaus beyond this take longer than what comes after. */
-#define MOST_FOR_LEMKE 1000
-
 /* The next stage that fits the problem, ready to go on; none is left: over.  W is
  * condensed when the first stage asks for it. */
 static rb_status begin_stage(member *a)
@@ -187,7 +185,7 @@ static rb_status begin_stage(member *a)
         const rb_friction_solver *solver = rb_friction_solver_of(s->method, s->variant);
         const int flat = solver->needs & RB_FRICTION_ONLY_2D;
         const int condensed = !(solver->needs & RB_FRICTION_NEEDS_W) || t->shared->local;
-        if (!(flat && (t->d != 2 || t->contacts > MOST_FOR_LEMKE)) &&
+        if (!(flat && (t->d != 2 || t->contacts > RB_FRICTION_LEMKE_UP_TO)) &&
             (condensed || (t->measure->spring == 0.0 && rb_friction_task_condense(t) == RB_OK))) {
             a->solver = solver;
             break;

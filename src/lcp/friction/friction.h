@@ -3,6 +3,7 @@
 #define ROLLBEM_SRC_LCP_FRICTION_FRICTION_H
 
 #include "lcp/contact/contact.h"
+#include "base/sizes.h"
 #include "base/sparse.h"
 #include "rollbem/friction.h"
 
@@ -130,9 +131,6 @@ typedef enum {
     RB_FRICTION_SLIP_MINUS, /* u_N = 0, u_T <= 0, r_T = mu r_N */
     RB_FRICTION_STATES
 } rb_friction_state;
-
-/* Contacts of which rb_friction_all tries all states, 4^8. */
-enum { RB_FRICTION_ALL_UP_TO = 8 };
 
 /* The number, from 1 on, of the first contact of a local form with W_NN < mu ||W_NT||, where
  * pushing a contact that slips opens it: there may be several solutions.  0: none. */

@@ -121,9 +121,6 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_op
 
 /* ---- branch.c ------------------------------------------------------------------------ */
 
-/* The largest order of a problem that is worth a search. */
-enum { LCP_BRANCH_UP_TO = 200 };
-
 /* A solution of any M, or the proof that there is none, by branching on pairs z_i, w_i over
  * linear programs.  RB_OK: z and info; other statuses leave both but for the number of choices,
  * which info->iters grows by: RB_NO_SOLUTION: there is none; RB_UNDECIDED: none was found, and
@@ -133,9 +130,6 @@ rb_status rb_lcp_branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt
                         double *z, rb_lcp_info *info);
 
 /* ---- coarse.c: a start of discretised inequalities from coarser ones ------------------ */
-
-/* Orders from which on a coarser problem comes first. */
-enum { LCP_COARSE_FROM = 300 };
 
 /* 1: diagonal entries are positive and others hardly ever, as in discretised
  * inequalities: then a start with too many basic z is mended in fewer steps than one with

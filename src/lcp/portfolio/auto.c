@@ -7,6 +7,7 @@
  * Operations are counted by formulas, so that the same problem is always solved in the
  * same way. */
 #include "lcp/lemke/lemke.h"
+#include "base/sizes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,25 +15,16 @@
 
 /* ---- Structure --------------------------------------------------------------------- */
 
-/* Largest order of a tableau in a portfolio, which takes 8 n^2 bytes twice. */
-enum { LARGEST_TABLEAU = 5000 };
-
-/* From this order on, and with fewer entries than this part of all, a pivot by sparse
- * factors is cheaper than one on a tableau. */
-enum { SPARSE_FROM = 300 };
+/* With fewer entries than this part of all a pivot by sparse factors is cheaper than one on a
+ * tableau, from RB_LCP_SPARSE_PIVOTS_FROM on. */
 static const double FEW = 0.02;
 
-/* --solver lemke is a tableau below this order or above this part of all entries. */
-enum { LARGE = 500 };
+/* --solver lemke is a tableau below RB_LCP_LEMKE_SPARSE_FROM or above this part of all entries. */
 static const double MANY = 0.1;
 
-/* Newton's method goes first on sparse matrices whose diagonal is positive: from the
- * first order on where they are those of discretised inequalities, which it solves
- * always, from the second one on elsewhere; so many systems are its first turn. */
-enum { SURE_FROM = 200, HOPE_FROM = 24, SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
-
-/* From this order on it is looked whether rows are dominated by their diagonal. */
-enum { DOMINATED_FROM = 200 };
+/* Newton's method goes first on sparse matrices whose diagonal is positive: on those of discretised
+ * inequalities, which it solves always, and on others; so many systems are its first turn. */
+enum { SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 
 typedef struct {
     int n, positive; /* order; 1: all diagonal entries are positive */
@@ -86,19 +78,19 @@ static void choose(const lcp_task *task, portfolio *p)
 {
     const rb_sparse *M = task->M.sparse;
     const structure s = read_structure(M);
-    const int sparse_pivots = s.n >= SPARSE_FROM && s.part < FEW;
-    const int first = sparse_pivots || s.n > LARGEST_TABLEAU ? SPARSE : TABLEAU;
+    const int sparse_pivots = s.n >= RB_LCP_SPARSE_PIVOTS_FROM && s.part < FEW;
+    const int first = sparse_pivots || s.n > RB_LCP_TABLEAU_UP_TO ? SPARSE : TABLEAU;
     const int sparse = s.positive && s.part <= MANY;
-    const int discretised = sparse && s.n >= HOPE_FROM && rb_lcp_coarse_fits(M);
-    const int sure = discretised && s.n >= SURE_FROM;
+    const int discretised = sparse && s.n >= RB_LCP_NEWTON_HOPE_FROM && rb_lcp_coarse_fits(M);
+    const int sure = discretised && s.n >= RB_LCP_NEWTON_SURE_FROM;
     const int newton_first =
-        sure || (sparse && !discretised && s.n >= HOPE_FROM) || task->opt->start;
+        sure || (sparse && !discretised && s.n >= RB_LCP_NEWTON_HOPE_FROM) || task->opt->start;
     if (newton_first)
         add(p, NEWTON, 1.0, sure ? SURE_SYSTEMS : HOPE_SYSTEMS, task);
     add(p, first, 1.0, 0, task);
     if (!newton_first)
         add(p, NEWTON, s.positive ? 0.5 : 0.1, 0, task);
-    if (first == TABLEAU || s.n <= LARGEST_TABLEAU)
+    if (first == TABLEAU || s.n <= RB_LCP_TABLEAU_UP_TO)
         add(p, first == TABLEAU ? SPARSE : TABLEAU, 0.5, 0, task);
 }
 
@@ -339,8 +331,8 @@ static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_opti
 static rb_status branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double began,
                         double *z, rb_lcp_info *info, rb_status s)
 {
-    if (p->M->cols > LCP_BRANCH_UP_TO || (s != RB_RAY && s != RB_SINGULAR && s != RB_MAXITER &&
-                                          s != RB_INACCURATE && s != RB_NUMERICAL))
+    if (p->M->cols > RB_LCP_BRANCH_UP_TO || (s != RB_RAY && s != RB_SINGULAR && s != RB_MAXITER &&
+                                             s != RB_INACCURATE && s != RB_NUMERICAL))
         return s;
     const int before = info->iters;
     const rb_status found = rb_lcp_branch(p, opt, began, z, info);
@@ -390,7 +382,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
     rb_status status = RB_SINGULAR;
     if (kind == BLOCKS)
         return rb_lcp_newton_in_boxes(p, 0, &o, z, info);
-    if (kind == AUTO && !path && p->M->cols >= DOMINATED_FROM) {
+    if (kind == AUTO && !path && p->M->cols >= RB_LCP_DOMINATED_FROM) {
         status = rb_lcp_contraction(p, &o, began, z, info);
         if (status == RB_OK || status == RB_TIME_LIMIT || status == RB_INTERRUPTED)
             return status;
@@ -415,7 +407,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
         status = retry_definite(p, &o, z, info, status);
         return branch(p, &o, began, z, info, status);
     }
-    const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
+    const int large = p->M->cols >= RB_LCP_LEMKE_SPARSE_FROM && read_structure(p->M).part < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)
         return retry_definite(p, &o, z, info, rb_lcp_mixed(p, &o, z, info));
     const int n = p->M->cols;

@@ -3,6 +3,7 @@
  * starts from a coarser one, are the first basic variables of the finer problem. */
 
 #include "lcp/lemke/lemke.h"
+#include "base/sizes.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -106,7 +107,8 @@ rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z, do
         rb_lcp_info info = {0};
         for (int i = 0; i < n; i++)
             coarse_q[of[i]] += q[i];
-        s = count < LCP_COARSE_FROM ? RB_SINGULAR : rb_lcp_coarse_start(&C, coarse_q, start, work);
+        s = count < RB_LCP_COARSE_FROM ? RB_SINGULAR
+                                       : rb_lcp_coarse_start(&C, coarse_q, start, work);
         for (int a = 0; s == RB_SINGULAR && a < count; a++)
             start[a] = 1.0;
         if (s != RB_ENOMEM)

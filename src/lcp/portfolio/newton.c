@@ -2,6 +2,7 @@
  * 1994): Newton's method on mid(z - lower, M z + q, z - upper) = 0, guarded so that it ends
  * for every P-matrix. */
 #include "lcp/lemke/lemke.h"
+#include "base/sizes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,10 +17,10 @@ enum { CHANCES = 10 };
  * of gathering and products per entry of M, and of what costs like n. */
 static const double PER_FACTOR = 40.0, PER_ENTRY = 10.0, PER_ROW = 20.0;
 
-/* Conjugate gradients instead of LU: from this order on, where the factors would have so many
- * entries per row, as they have in space; to this part of the right-hand side, and of the
+/* Conjugate gradients instead of LU, from RB_LCP_GRADIENTS_FROM on: where the factors would have so
+ * many entries per row, as they have in space; to this part of the right-hand side, and of the
  * basis that is the right one to the second or in LAST_STEPS, in so many steps at most. */
-enum { GRADIENTS_FROM = 5000, GRADIENT_STEPS = 2000, LAST_STEPS = 300 };
+enum { GRADIENT_STEPS = 2000, LAST_STEPS = 300 };
 static const double FULL = 100.0, GRADIENTS_TO = 1e-12, AT_LAST_TO = 1e-15;
 
 enum { LOWER = -1, UPPER = -2 }; /* in place of a number: the bound of a nonbasic z */
@@ -46,7 +47,7 @@ static rb_status choose_gradients(newton *s)
     const rb_sparse *M = s->p.M;
     const int n = M->cols;
     s->gradients = 0;
-    if (n < GRADIENTS_FROM)
+    if (n < RB_LCP_GRADIENTS_FROM)
         return RB_OK;
     for (int j = 0; j < n; j++)
         if (!(rb_sparse_diagonal(M, j) > 0.0))
@@ -296,7 +297,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     if (s->memory.failed)
         return fail_memory(s);
     const int boxes = s->p.lower || s->p.upper, fits = !boxes && !start && rb_lcp_coarse_fits(M);
-    if (fits && M->rows >= LCP_COARSE_FROM) {
+    if (fits && M->rows >= RB_LCP_COARSE_FROM) {
         const rb_status coarse = rb_lcp_coarse_start(M, task->q, s->z, &s->work.used);
         if (coarse == RB_ENOMEM)
             return fail_memory(s);

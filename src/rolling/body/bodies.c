@@ -102,15 +102,12 @@ static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *p
     return s;
 }
 
-/* Fewer elements are solved sooner by an LU (docs/performance.md). */
-enum { LEAST_TRANSFORMED = 250 };
-
 static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                 rb_rolling_bodies *bodies, rb_message *why)
 {
     rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
 
-    if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
+    if (mesh->n < RB_ROLLING_PRODUCTS_BESIDE_FROM || !rb_rolling_has_transforms(rc))
         return RB_OK;
     const rb_status s = join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;

@@ -463,9 +463,7 @@ rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
 
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan)
 {
-    enum { MANY = 600 };
-
-    return plan->outer_refinement > 1.0 || plan->outer_elements > MANY;
+    return plan->outer_refinement > 1.0 || plan->outer_elements >= RB_ROLLING_FINE_BOUNDARY_FROM;
 }
 
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan)

@@ -723,21 +723,12 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* ---- What depends on other options ------------------------------------------------- */
 
-/* From so many elements on they are not graded to the edges, on any support.  Where pressure and
- * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
- * so many graded ones are worth their time, and where products solve for them so many.  From mu
- * beta = 1 on Lemke's method takes seconds for more, and Newton's fails on most aligned ones. */
-enum { MANY = 1500, MOST_GRADED = 400, MOST_GRADED_BY_PRODUCTS = 100000, MOST_GRADED_STRONG = 240 };
 /* half as many, by which error bars are found, are still aligned elements */
 enum { LEAST_REFINED = 24 };
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
 }
-
-/* Elements at most that are taken for tables by themselves: by transforms in one step, and with a
- * matrix or in many steps.  A note says where a table needs more. */
-enum { MOST_FOLLOWING = 20000, MOST_FOLLOWING_DEARLY = 1000 };
 
 /* Half-planes under a gap from a file have the radius of the gap, or none. */
 static void set_radius(rb_case *c)
@@ -763,14 +754,14 @@ static rb_status follow_tables(rb_case *c, rb_message *why)
     rb_status s = rb_rolling_elements_for_tables(rc, n, &n);
     rb_rolling_case equal = *rc;
     equal.mesh = RB_MESH_ALIGNED;
-    if (s == RB_OK && rc->mesh == RB_MESH_FITTED && !rb_case_given(c, "mesh") && n > MOST_GRADED &&
-        rb_rolling_suits_large(&equal, &(rb_rolling_mesh){.n = n})) {
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED && !rb_case_given(c, "mesh") &&
+        n > RB_ROLLING_GRADED_UP_TO && rb_rolling_suits_large(&equal, &(rb_rolling_mesh){.n = n})) {
         rc->mesh = RB_MESH_ALIGNED;
         s = rb_rolling_elements_for_tables(rc, rc->contact_elements, &n);
     }
     const int cheap = rb_rolling_suits_large(rc, &(rb_rolling_mesh){.n = n}) &&
                       !rb_case_has_steps(&c->resolved) && c->purpose != RB_CASE_WEAR;
-    const int most = cheap ? MOST_FOLLOWING : MOST_FOLLOWING_DEARLY;
+    const int most = cheap ? RB_ROLLING_FOLLOWING_UP_TO : RB_ROLLING_FOLLOWING_DEARLY_UP_TO;
     rc->contact_elements = n < most ? n : most;
     return s == RB_OK ? s : rb_fail(why, s, "out of memory for the tables of a case");
 }
@@ -1011,11 +1002,12 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     fitted.mesh = RB_MESH_FITTED;
     const int strong = rb_rolling_mu_beta(rc) >= 1.0;
     const int most = !graded                                   ? 0
-                     : rb_rolling_suits_large(&fitted, &equal) ? MOST_GRADED_BY_PRODUCTS
-                     : strong                                  ? MOST_GRADED_STRONG
-                                                               : MOST_GRADED;
-    const int many = rc->contact_elements > most &&
-                     (rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal));
+                     : rb_rolling_suits_large(&fitted, &equal) ? RB_ROLLING_GRADED_BY_PRODUCTS_UP_TO
+                     : strong                                  ? RB_ROLLING_GRADED_STRONG_UP_TO
+                                                               : RB_ROLLING_GRADED_UP_TO;
+    const int many =
+        rc->contact_elements > most &&
+        (rc->contact_elements >= RB_ROLLING_EQUAL_FROM || rb_rolling_suits_large(rc, &equal));
     /* the search for a load needs a mesh that scales with the contact */
     const int scales =
         ((!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc)) || !isnan(rc->moment)) &&

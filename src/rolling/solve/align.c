@@ -3,9 +3,8 @@
 #include "rolling/internal.h"
 
 enum {
-    FIRST = 30,     /* elements at least that the first edges are found with */
-    COARSEST = 400, /* elements at most on the first level */
-    LEVEL = 2,      /* binary digits fewer than on the next level: a quarter of it */
+    FIRST = 30, /* elements at least that the first edges are found with */
+    LEVEL = 2,  /* binary digits fewer than on the next level: a quarter of it */
     ROUNDS = 10,
     COARSE_ROUNDS = 3, /* to know an edge to a part of an element */
     BEYOND = 4         /* separated elements kept beyond either edge */
@@ -173,7 +172,7 @@ rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why)
     double off = 0.0;
     int digits = 0, rest;
 
-    while (across >> digits > COARSEST)
+    while (across >> digits > RB_ROLLING_COARSEST_ALIGNED)
         digits += LEVEL;
     if (model->rc->zone == 0.0)
         model->plan.elements = (int)fmax(FIRST, (across >> digits) / 2);

@@ -2,13 +2,11 @@
  * steps does not grow. */
 #include "rolling/internal.h"
 
-/* Elements of the coarsest mesh, which starts cold: fewer than any that starts from
- * another one. */
-enum { COARSEST = 40 };
-
+/* The coarsest mesh, which starts cold, has fewer elements than any that starts from another one.
+ */
 int rb_rolling_coarse_elements(int n)
 {
-    return n / 4 >= RB_ROLLING_TRANSFORMS ? n / 4 : COARSEST;
+    return n / 4 >= RB_ROLLING_TRANSFORMS ? n / 4 : RB_ROLLING_COARSEST;
 }
 
 /* Value at x of tractions at the coarse midpoints, linear in between. */

@@ -7,8 +7,6 @@
 enum {
     FIRST = 30, /* elements at least that the first edges are found with */
     ROUNDS = 10,
-    MOST_AT_ONCE = 400, /* elements, of which more start from COARSEST at most */
-    COARSEST = 200,
     MOST_PATCHES = 16
 };
 /* Edges that have come to rest, or near enough after all rounds: in lengths of the
@@ -217,7 +215,8 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
     const int fine = rb_rolling_has_fine_boundary(&asked);
     int halvings = 0;
 
-    while (asked.elements > MOST_AT_ONCE && asked.elements >> halvings > COARSEST)
+    while (asked.elements > RB_ROLLING_FITTED_AT_ONCE &&
+           asked.elements >> halvings > RB_ROLLING_COARSEST_FITTED)
         halvings++;
     /* A coarse solution to fit to: where the rest of a wheel has many elements, with few
      * of them. */

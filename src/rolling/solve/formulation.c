@@ -453,8 +453,7 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
 /* Where mu beta >= 1: Newton's steps without a matrix times elements, some seconds of them. */
 static const double MOST_WORK = 1e5;
 
-/* A mesh of so many elements asks for few enough to be solved with a matrix in seconds. */
-enum { LEAST_STEPS = 40, MOST_BY_MATRIX = 200 };
+enum { LEAST_STEPS = 40 };
 
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
                                    rb_contact_state *state, rb_message *why)
@@ -469,7 +468,7 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
         rb_fail(why, s,
                 "mu beta = %.3g: from 1 on Newton's method may fail on many elements, as it did on "
                 "%d; give at most %d --contact-elements, or --solver lemke",
-                coupling, problem->n, MOST_BY_MATRIX);
+                coupling, problem->n, RB_ROLLING_STRONG_ADVISED_UP_TO);
     return s;
 }
 

@@ -204,9 +204,6 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling
     return s == RB_OK ? set_up(model, 0, why) : s;
 }
 
-/* Elements up to which Lemke's method solves in seconds where mu beta >= 1. */
-enum { MOST_WITH_COUPLING = 300 };
-
 /* Zones, tractions and friction of another mesh, where its elements lie; of a fitted one, whose
  * elements have moved with the edges, element by element. */
 static void start_near(const rb_rolling_mesh *old_mesh, const rb_contact_state *old,
@@ -256,7 +253,8 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     }
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
-    const int most = model->problem.step_limit > 0 ? MOST_WITH_COUPLING : RB_ROLLING_LARGE - 1;
+    const int most =
+        model->problem.step_limit > 0 ? RB_ROLLING_STRONG_BY_MATRIX_UP_TO : RB_ROLLING_LARGE - 1;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) || !large ||
         model->mesh.n > most)
         return s;

@@ -8,9 +8,7 @@ enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
     IN_CONTACT = 3,       /* elements that they leave to the contact */
-    MANY = 1500,          /* elements whose line is first searched for with few */
-    FEW = 150,            /* elements that tell how wide the line of many should be */
-    MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
+    FEW = 150             /* elements that tell how wide the line of many should be */
 };
 
 typedef struct {
@@ -344,11 +342,11 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
     if (coarse || !(width(before) > 0.0)) {
         rb_rolling_plan few = model->plan;
         zone = first_zone(model->rc);
-        if (few.elements >= MANY || rb_rolling_has_fine_boundary(&few)) {
+        if (few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM || rb_rolling_has_fine_boundary(&few)) {
             /* Few elements tell as well how wide the line should be. */
             rb_rolling_case equal = *model->rc;
             rb_rolling_model first;
-            few.elements = few.elements >= MANY ? FEW : few.elements;
+            few.elements = few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ? FEW : few.elements;
             rb_rolling_coarsen_boundary(&few);
             equal.mesh = RB_MESH_UNIFORM;
             if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
@@ -407,7 +405,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             break;
         zone = keeps_zone ? zone : tightened(model->rc, wanted);
         elements = coarse ? elements : elements_for(model, zone);
-        if (elements > model->plan.elements && elements > MOST_EQUAL &&
+        if (elements > model->plan.elements && elements > RB_ROLLING_PATCHES_UP_TO &&
             !rb_rolling_is_large(model->rc, &(rb_rolling_mesh){.n = elements}))
             return rb_fail(why, RB_ZONE,
                            "the patches of the contact are so far apart that %d equal "
