@@ -219,7 +219,7 @@ TEST(a_rolling_wheel_shrinks)
         const rb_rolling_wear much = {.coefficient = 1e-2, .way = 1e6, .steps = 1};
         start(&r, &rc, &much);
         CHECK_STATUS(r.status, RB_EINVAL);
-        assert_non_null(strstr(r.why.text, "of the radius 50; take more steps"));
+        assert_non_null(strstr(r.why.text, "of the radius, 50 mm; take more steps"));
         assert_int_equal(r.h.n, 1); /* what there was before */
         finish(&r);
     }
@@ -237,6 +237,12 @@ TEST(a_scar_that_outgrows_its_zone)
     CHECK_REL(r.last.x[r.last.n - 1] - r.last.x[0], (r.last.n - 1) * r.last.h[0], 1e-12,
               "equal elements");
     CHECK_REL(r.last.h[0], 3.2 / 40.0, 1e-12, "of the same length");
+    finish(&r);
+    const rb_rolling_wear flat = {.slides = 1, .coefficient = 1e-2, .way = 1e6, .steps = 3};
+    start(&r, &rc, &flat); /* until nothing is left of it */
+    CHECK_STATUS(r.status, RB_ZONE);
+    assert_non_null(strstr(r.why.text, "as wide as a body"));
+    assert_non_null(strstr(r.why.text, "the radius is 50 mm; wear off less"));
     finish(&r);
     rc = plane(16);
     set(&rc, "support hub outer-elements 30");

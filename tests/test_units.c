@@ -670,6 +670,7 @@ TEST(lines_say_their_numbers_in_the_system)
         {RB_UNITS_INCH, "25.4 mm2, 3 MPa.mm^0.5, x2 25.4 mmm, 5 MJ/(m3 K)",
          "0.03937 in2, 3 MPa.mm^0.5, x2 25.4 mmm, 5 MJ/(m3 K)"},
         {RB_UNITS_SI, "Q = 70 N/mm at 5 MPa, -1e-3 mm", "Q = 70000 N/m at 5e+06 Pa, -1e-06 m"},
+        {RB_UNITS_INCH, "give --load 52.53805057 N/mm", "give --load 300 lbf/in"},
         {RB_UNITS_MM, "zone: 76.2000001 mm", "zone: 76.2000001 mm"}};
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
         char line[200];

@@ -588,9 +588,23 @@ static int find_numbers(rb_units system, const char *line, line_number *n)
     return found;
 }
 
+/* x with as many digits as the number has, but for the last of more than six: up to six it may be
+ * the largest that is accepted, and is not rounded up. */
+static void append_converted(char *said, size_t size, const line_number *n)
+{
+    enum { FEW = 6 };
+    static const double rounding = 1e-8; /* of a number that has more */
+    const double x = rb_unit_over(&n->factor, rb_read_number(n->at, NULL));
+    const char *at = n->at + strspn(n->at, "-0.");
+    int digits = 0;
+    for (; at < n->end && *at != 'e'; at++)
+        digits += *at != '.';
+    rb_append(said, size, "%.*g", digits > FEW ? digits - 1 : FEW,
+              digits > FEW ? x : rb_largest_shown(x * (1.0 + rounding)));
+}
+
 void rb_unit_translate(rb_units system, char *line, size_t size)
 {
-    static const double rounding = 1e-8; /* of a number with as many digits as messages have */
     line_number n[LINE_NUMBERS];
     char said[sizeof((rb_message *)0)->text] = "";
     const char *from = line;
@@ -603,9 +617,8 @@ void rb_unit_translate(rb_units system, char *line, size_t size)
     for (int i = 0; i < numbers; i++) {
         if (!n[i].converts)
             continue;
-        const double x = rb_unit_over(&n[i].factor, rb_read_number(n[i].at, NULL));
-        rb_append(said, sizeof said, "%.*s%g", (int)(n[i].at - from), from,
-                  rb_largest_shown(x * (1.0 + rounding)));
+        rb_append(said, sizeof said, "%.*s", (int)(n[i].at - from), from);
+        append_converted(said, sizeof said, &n[i]);
         from = n[i].end;
         if (n[i].unit) {
             char unit[20];

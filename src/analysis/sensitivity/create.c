@@ -25,7 +25,7 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
         return rb_fail(
             why, RB_EINVAL,
             "derivatives: under --max-pressure only where Hertz's formula says the load; "
-            "give --load %.10g",
+            "give --load %.10g N/mm",
             rc->pressed_by);
     if (rc->period > 0.0)
         return rb_fail(why, RB_EINVAL, "derivatives: with a period not known");

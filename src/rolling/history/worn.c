@@ -130,6 +130,12 @@ static rb_status widen(wear_state *r, rb_message *why)
                        "wheels; give a wider one (--zone)");
     wider.rc.contact_elements = n + 2 * more;
     wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
+    const double radius = fmin(fabs(r->rc.a.radius), fabs(r->rc.b.radius));
+    if (wider.rc.zone >= radius)
+        return rb_fail(why, RB_ZONE,
+                       "the contact becomes as wide as a body: it would need a zone of %g mm, and "
+                       "the radius is %g mm; wear off less",
+                       wider.rc.zone, radius);
     memset(&wider.model, 0, sizeof wider.model);
     wider.memory = (rb_arena){0};
     rb_status s = press(&wider, why);
@@ -373,7 +379,7 @@ static rb_status roll_stage(wear_state *r, double before, double before_b, doubl
             r->rc.b.radius = before_b - turns * share * *depth * moved / fabs(r->rc.b.radius);
         if (!(radius > 0.5 * before) || !(r->rc.b.radius / before_b > 0.5 || !turns_b))
             return rb_fail(
-                why, RB_EINVAL, "wear: a step takes %g of the radius %g; take more steps",
+                why, RB_EINVAL, "wear: a step takes %g mm of the radius, %g mm; take more steps",
                 fmax(before - radius, turns_b ? before_b - r->rc.b.radius : 0.0), before);
         r->rc.a.radius = radius;
         if (fabs(radius - moved) <= 1e-14 * before)
