@@ -121,6 +121,22 @@ TEST(refusals_are_those_of_the_case)
     rb_api_free(NULL);
 }
 
+/* Refusals of the case, and of what is asked of its solution. */
+TEST(refusals_are_in_the_units_of_the_case)
+{
+    rb_api *a = NOT_NULL(rb_api_create());
+    assert_int_equal(give(a, "units inch support halfplane load 1000 mu 0.3 force 400"), RB_OK);
+    assert_true(rb_api_solve(a) < 0);
+    assert_non_null(strstr(rb_api_message(a), "Q = 400 lbf/in"));
+    rb_api_free(a);
+    a = solved("units inch support halfplane young 1000 poisson 0.3 radius 100 layer-thickness 2 "
+               "max-pressure 20 mu 0");
+    assert_true(rb_api_derivatives(a) < 0);
+    assert_non_null(strstr(rb_api_message(a), "; give --load 65.01"));
+    assert_non_null(strstr(rb_api_message(a), " lbf/in"));
+    rb_api_free(a);
+}
+
 TEST(numbers_are_the_solution)
 {
     held_api *a = solved(steady);

@@ -1,6 +1,8 @@
 /* Calls: what each leaves, its threads of BLAS, and how another thread stops it. */
 #include "program/api/internal.h"
 
+#include "base/units.h"
+
 #include <gsl/gsl_errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -23,6 +25,10 @@ int rb_api_ended(rb_api *a, rb_status s)
         rb_api_name_option(&a->why);
     if (s == RB_OK || !a->why.text[0])
         snprintf(a->why.text, sizeof a->why.text, "%s", s == RB_OK ? "" : rb_status_text(s));
+    /* also of what no option is to blame for, which rb_case_locate has not seen */
+    if (s != RB_OK && a->words)
+        rb_unit_translate(rb_case_units(a->words, RB_GIVEN_ARGUMENT), a->why.text,
+                          sizeof a->why.text);
     return s;
 }
 
