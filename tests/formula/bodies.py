@@ -120,7 +120,7 @@ def tag_L1():
 
 
 def tag_L3():
-    factor = printed(PAGE, r"\frac{2h}{\pi E^*}\int_0^\infty\left[").split(r"\int")[0]
+    factor = printed(PAGE, r"\text{half-plane with datum } d + \frac{2h}{\pi E^*}\int_0^\infty\left[").split("d + ")[1].split(r"\int")[0]
     inside = printed(PAGE, r"m\,e^{-\alpha} + \operatorname{Re}\left(Z_N e^{ikx}\right)\operatorname{sinc}\frac{kh}{2}\right]\frac{d\alpha}{\alpha}")
     inside = inside.replace(r"\operatorname{Re}\left(Z_N e^{ikx}\right)\operatorname{sinc}\frac{kh}{2}\right]\frac{d\alpha}{\alpha}", "Z*S")
     printed(PAGE, "Z = c L - c (1, 1, beta)")
@@ -136,6 +136,73 @@ def tag_L3():
     for j in [0, 3, 9]:
         got = value(factor, h=h, Es=Es)*integrate.quad(lambda al: integrand(al, x[j] - x[0]), 1e-6, 60, limit=200)[0]
         close(got, np.array(layer.F)[j, 0] - np.array(half.F)[j, 0], 1e-4)
+
+
+def ring(m, nu):
+    """The matrix M_m of (B20) in d/d ln r for u_r = U cos, u_theta = V sin, s_rr = S cos, s_rt = T sin: Hooke and equilibrium."""
+    around = np.array([1, m, nu, 0])/(1 - nu)  # r s_tt
+    return np.array([[-nu/(1 - nu), -nu*m/(1 - nu), (1 - 2*nu)/(1 - nu), 0], [m, 1, 0, 2], around - [0, 0, 0, m], m*around - [0, 0, 0, 1]])
+
+
+def tag_B20():
+    text = printed(PAGE, r"y &= (2GU, 2GV, rS, rT), \qquad \frac{dy}{d\ln r} = M_m\,y, \qquad y(\tau) = \sum_{\lambda = \pm m \pm 1} e^{-\lambda\tau} "
+                   r"\prod_{\lambda' \ne \lambda} \frac{M_m - \lambda'}{\lambda - \lambda'}\,y(0)")
+    fade, part = text.split(r"\pm 1} ")[1].split(r" \prod")[0].replace("e^{-", "exp(-").replace("}", ")"), text.split(r"\ne \lambda} ")[1].split(r"\,y")[0]
+    m, nu, tau = 3, 0.3, 0.7
+    M, roots = ring(m, nu), [m + 1, m - 1, 1 - m, -m - 1]
+    close(np.sort(np.linalg.eigvals(M).real), sorted(roots))
+    whole = 0
+    for a in roots:
+        term = np.eye(4)*value(fade.replace(r"\lambda", "l"), l=a, tau=tau)
+        for b in roots:
+            if b != a:
+                term = term @ value(part.replace("M_m - \\lambda'", "N").replace(r"\lambda - \lambda'", "l-k"), N=M - b*np.eye(4), l=a, k=b)
+        whole = whole + term
+    close(whole, expm(-M*tau))
+    around = printed(PAGE, r"\sigma_{rr} &= S, \qquad \sigma_{\theta\theta} = \frac{\nu S + (2GU + m\,2GV)/r}{1-\nu}, \qquad \sigma_{r\theta} = T").split("= ")[2].split(r", \qquad")[0]
+    y, r = np.array([0.3, -0.2, 0.7, 0.4]), 1.7  # r d(rS)/dr = r s_tt - m r T
+    close(value(around.replace("2GU", "u").replace("2GV", "v"), nu=nu, S=y[2]/r, u=y[0], v=y[1], m=m, r=r)*r, (M @ y)[2] + m*y[3])
+    plane = printed(PAGE, r"\text{plane:}\quad \sigma_{rr} &= -f, \qquad \sigma_{\theta\theta} = f'', \qquad \sigma_{r\theta} = i f', \qquad f = (p + (p - iq)\,m\tau)\,e^{-m\tau}")
+    f = plane.split("f = ")[1].replace("iq", "i*q").replace("e^{-m\\tau}", "E").replace("m\\tau", "t")
+    p, q, h = 0.7, 0.3, 1e-4
+    of = lambda t: value(f, p=p, q=q, i=1j, t=t, E=np.exp(-t))
+    d = lambda t: (of(t + h) - of(t - h))/(2*h)
+    along, across = (plane.split("= ")[k].split(r", \qquad")[0] for k in (1, 3))
+    close([value(along.replace("f", "v"), v=of(0)), value(across.replace("f'", "v"), v=d(0), i=1j)], [-p, q], 1e-6)  # the load
+    large, away = 4000, 2.0  # a ring is a half-plane to waves that are short beside R; T sin: q = -i T
+    M = ring(large, nu)
+    w, v = np.linalg.eig(M)
+    v = v[:, np.argsort(-w.real)[:2]].real
+    y = v @ np.linalg.solve(v[2:], [-p, q])
+    inner = expm(-M*away/large) @ y
+    close(inner[2], -value(f, p=p, q=-1j*q, i=1j, t=away, E=np.exp(-away)).real, 2e-3)
+
+
+def tag_B11_B12():
+    text = printed(PAGE, r"u = -C\,t + u_s(\text{core}) - u_s(\text{cover}) - W\,u_s(\text{core, at the hub})").split("= ")[1]
+    for old, new in [(r"u_s(\text{core})", "a"), (r"u_s(\text{cover})", "b"), (r"u_s(\text{core, at the hub})", "d")]:
+        text = text.replace(old, new)
+    C, W, t, a, b, d = 0.7, 0.4, 1.3, 0.2, 0.5, 0.3  # what is left of both after the strips: u - a = -C t + W (0 - d), the hub is at rest
+    close(value(text, C=C, t=t, a=a, b=b, W=W, d=d), -C*t + W*(0 - d) + a - b)
+    sum_text = printed(PAGE, r"\sum_{m=0}^{20/\ln(R/r)} (K_m - K_m^{\text{disc}})\, e^{imx}")
+    last, term = sum_text.split("^{")[1].split("} (")[0], sum_text.split("} (")[1].split(")\\,")[0].replace(r"K_m^{\text{disc}}", "D").replace("K_m", "K")
+    nu, deep = 0.3, 3.0  # ln(R/r)
+    m = int(np.ceil(value(last.replace(r"\ln(R/r)", "l"), l=deep)))
+    def K(m):  # no displacement at the bond: u_r at R by s = 1, t = 0
+        inside = expm(ring(m, nu)*deep)[:, 2:]
+        return (inside[0] @ np.linalg.solve(inside[2:], [1.0, 0.0]))
+    disc = lambda m: ((3 - 4*nu)/(m + 1) + 1/(m - 1))/2
+    rest = [abs(value(term, K=K(k), D=disc(k))) for k in (2, m)]
+    assert 1e-6 < rest[0] < 0.1 and rest[1] < 1e-12*disc(m), rest
+
+
+def tag_S1_axis():
+    left, right = printed(PAGE, r"4\,k(y) \ge \max_x (s_1 - s_{zz}) - \min_x (s_2 - s_{zz})").replace(r"\max_x (s_1 - s_{zz})", "a").replace(r"\min_x (s_2 - s_{zz})", "b").split(r"\ge")
+    rng = np.random.default_rng(2)
+    one = rng.standard_normal(50) + 2
+    two, z = one - 3*rng.random(50), rng.standard_normal(50)
+    least = min(max((one - z - c).max(), (z + c - two).max()) for c in np.linspace(-9, 9, 36001))/2  # Tresca beside the axis, its stress free
+    close(value(left.replace("k(y)", "k"), k=least), value(right, a=(one - z).max(), b=(two - z).min()), 1e-3)
 
 
 def tag_B9():
@@ -191,10 +258,11 @@ def tag_U1_U2():
     Es, r = E/(1 - nu**2)/2, -0.5
     p_0 = Es*a/(2*R)
     c = value(printed("theory-rolling.md", r"c = a \sqrt{1-|r|}").split("=")[1].replace(r"a \sqrt{1-|r|}", "a*sqrt(1-abs(r))"), a=a, r=r)
-    shift = printed("theory-rolling.md", r"\frac{(\epsilon_A-\epsilon_B) E^* a}{2 \mu p_0}").replace(r"\epsilon_A-\epsilon_B", "eps").replace(r"\mu", "m")
+    shift, root = printed("theory-rolling.md", r"x_0 = \mathrm{sgn}\,Q \frac{(\epsilon_A-\epsilon_B) E^* a}{2 \mu p_0}, \quad H(t) = \sqrt{1-t^2}").split(r", \quad H(t) = ")
+    shift = shift.split("=")[1].replace(r"\mathrm{sgn}\,Q", "turn").replace(r"\epsilon_A-\epsilon_B", "eps").replace(r"\mu", "m")
     s = rollbem.solve(**case, formulation="static", bulk_stress=60, force_ratio=r, contact_elements=400)
-    x_0 = -value(shift, eps=60*(1 - nu**2)/E, Es=Es, a=a, m=mu, p_0=p_0)
-    H = lambda t: np.sqrt(np.maximum(1 - t*t, 0))
+    x_0 = value(shift, turn=np.sign(r), eps=60*(1 - nu**2)/E, Es=Es, a=a, m=mu, p_0=p_0)
+    H = lambda t: value(root.replace(r"\sqrt{1-t^2}", "sqrt(max0(1-t^2))"), t=t, max0=lambda y: np.maximum(y, 0))
     got = -value(q, H=H, x=np.array(s.x), a=a, c=c, x_0=x_0)*mu*p_0
     close(np.array(s.q)[np.abs(s.x) < 0.97], got[np.abs(s.x) < 0.97], 2e-2)
 
@@ -240,7 +308,7 @@ def tag_V3():
     P_text, m_1, m_2 = (printed(PAGE, t).split("=")[1] for t in (
         r"m_0 &= \frac{(1+f)P}{\pi a}", r"m_1 = -\frac{E^*(x_0-L)}{2R}", r"m_2 = -\frac{E^* a}{4R}"))
     trailing = printed(PAGE, "m_0 I_0(k) - m_1 I_1(k) + m_2 I_2(k)")
-    leading = printed(PAGE, r"\frac{2a}{E^* L}\left[m_0 J_0 + m_1 J_1 + m_2 J_2\right]")
+    edge, leading = printed(PAGE, r"\frac{x_0+a}{R} &= \frac{2a}{E^* L}\left[m_0 J_0 + m_1 J_1 + m_2 J_2\right]").split("&=")
     moment = printed(PAGE, r"x_0 P + \frac{a^2}{1+f}\left[\frac{\pi m_1}{2} - \frac{LP}{a^2}\right]").replace("LP", "L*P")
     J_1, J_2 = printed(PAGE, r"J_1 = K_1 - \frac1\kappa").split("=")[1], printed(PAGE, r"J_2 = K_2 - 2\left(\frac1\kappa + \frac1{\kappa^2}\right)").split("=")[1]
     J_1, J_2 = (t.replace(r"\frac1{\kappa^2}", "1/kap^2").replace(r"\frac1\kappa", "1/kap").replace(r"2\left", "2*") for t in (J_1, J_2))
@@ -259,7 +327,7 @@ def tag_V3():
         return names
     def off(z):
         names = state(*z)
-        return [value(trailing, **names)/names["m_0"], value(leading, **names) - (z[1] + z[0])/R]
+        return [value(trailing, **names)/names["m_0"], value(leading, **names) - value(edge, **names)]
     a, x_0 = optimize.fsolve(off, [(s.contact_to - s.contact_from)/2, (s.contact_to + s.contact_from)/2], xtol=1e-13)
     close([a, x_0], [(s.contact_to - s.contact_from)/2, (s.contact_to + s.contact_from)/2], 2e-3)
     close(value(moment, **state(a, x_0)), s.resistance_moment, 2e-3)

@@ -202,7 +202,7 @@ def tag_Somigliana():
 
 
 def tag_complementary():
-    printed("theory.md", r"z = (r_N, \lambda) \ge 0, \qquad w = (y_N, \gamma) = Mz + b \ge 0, \qquad z'w = 0")
+    printed("theory.md", r"z = (r_N, \lambda) \ge 0, \qquad w = (y_N, \gamma) = Mz + b \ge 0, \qquad z'w = 0, \qquad \text{size } 3n")
     printed("theory.md", r"\text{column of } \delta' &: \quad -1 \text{ in every gap row}")
     printed(ROLLING, r"0 \le \lambda_s \perp \mu p - |q| \ge 0, \qquad 0 \le \lambda_p \perp \tau - |q| \ge 0")
     s = rollbem.solve(**STEEL, load=500, mu=0.3, formulation="steady", creep_ratio=0.5, contact_elements=40)

@@ -10,6 +10,7 @@ a formula that a function of this folder evaluates.
                          which depend a little on the machine: not compared.  The program must exist and must have the
                          words of each row of the table up to a colon; seconds of more than one digit are refused.
     in FILE [FUNCTION...] numbers that a test compares, or that the program has as constants: they stand there
+    rows in FILE [FUNCTION...] the same, and those of each row of the table stand there one behind the other
     from SOURCE          literature; theory.md: numbers of sections, whose headings stand there
     OPTIONS | EXPRESSION; EXPRESSION ...
                          run by the program, OPTIONS with a command before them or not; an expression has
@@ -70,13 +71,13 @@ def summary(options):
 
 
 def numbers_in(place):
-    """The numbers of a file, or of functions and tables of it; none of what is not there."""
+    """The numbers of a file in their order, or of functions and tables of it; none of what is not there."""
     file, *names = place.split()
     text = open(file).read() if os.path.exists(file) else ""
     if names:
         found = [re.search(rf"^[^\n;]*\b{name}\b[^;]*?\{{.*?^\}}", text, re.S | re.M) for name in names]
         text = " ".join(m[0] for m in found if m)
-    return {abs(float(x)) for x in re.findall(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)}
+    return [abs(float(x)) for x in re.findall(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)]
 
 
 def named(rest):
@@ -84,19 +85,19 @@ def named(rest):
     if rest == "theory.md":
         return {float(x) for page in glob.glob("docs/theory*.md") for x in re.findall(r"^#+ (\d\.\d+)", open(page).read(), re.M)}
     first, *others = re.findall(r"\b_?[a-z]\w+", rest.partition("build/tests/test")[2])
-    return set().union(*(numbers_in(f"tests/test{name}.c") for name in [first, *others]))
+    return set().union(*(set(numbers_in(f"tests/test{name}.c")) for name in [first, *others]))
 
 
 @functools.cache
 def numbers_printed(command):
-    """The numbers that a command prints; none where it is run on some days only, and not today."""
+    """The numbers of each line that a command prints; none where it is run on some days only, and not today."""
     wanted = re.sub(r"^ROLLBEM_TEST_ALL=1 ", "", command)
     if wanted != command and not everything:
         return None
     build = os.path.dirname(os.environ.get("ROLLBEM", "build/rollbem"))
     done = subprocess.run(wanted.replace("build/", build + "/"), shell=True, capture_output=True, text=True,
                           env={**os.environ, "B": build, "CMOCKA_MESSAGE_OUTPUT": "STDOUT"})
-    return {abs(float(x)) for x in FIGURE.findall(done.stdout)}
+    return [[abs(float(x)) for x in FIGURE.findall(line)] for line in done.stdout.split("\n")]
 
 
 def sources(command):
@@ -130,13 +131,17 @@ def not_of_bench(command, block):
 
 def missing(kind, rest):
     """What is wrong with a line that names a section or a function."""
-    if kind == "rows":
+    if kind == "rows" and not rest.startswith("in "):
         return [] if rest in open("tests/figures").read() else [f"tests/figures has no {rest!r}"]
     if kind == "formula":
         chapter, _, tag = rest.partition(".")
         return [] if f"def {tag}(" in open(f"tests/formula/{chapter}.py").read() else [f"no {rest}"]
     test = re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest)
     return [] if kind != "by" or test != rest and os.path.exists(test) else [f"by {rest}: no test"]
+
+
+def is_in(word, numbers, digits=0.5001):
+    return any(abs(x - abs(float(word))) <= digits*unit(word) for x in numbers)
 
 
 def check(comment, block, shown):
@@ -147,7 +152,13 @@ def check(comment, block, shown):
     for k, line in enumerate(lines):
         kind, _, rest = line.strip().partition(" ")
         compares = rest.startswith(("build/tests/", "theory.md"))
-        if kind in ("rows", "formula", "by"):
+        if kind == "rows" and rest.startswith("in "):
+            there = numbers_in(rest[3:])
+            for row in block.split("\n"):
+                words = FIGURE.findall(row) if set(FIGURE.findall(row)) & set(shown) else []
+                runs = range(len(there) - len(words) + 1)
+                met.update(words if any(all(is_in(w, [x]) for w, x in zip(words, there[k:])) for k in runs) else [])
+        elif kind in ("rows", "formula", "by"):
             wrong += missing(kind, rest)
             all_named |= not compares
         elif kind == "bench":
@@ -155,13 +166,18 @@ def check(comment, block, shown):
             all_named = True
         elif kind == "from" and not compares:
             all_named |= not any(map(is_measured, FIGURE.findall(rest)))
-        if kind in ("in", "prints") or compares:
-            there = numbers_in(rest) if kind == "in" else numbers_printed(rest) if kind == "prints" else named(rest)
+        if kind == "prints":
+            there = numbers_printed(rest)
             all_named |= there is None
-            alike = {w for w in shown if any(abs(x - abs(float(w))) <= (0.6 if kind == "prints" else 0.5001)*unit(w) for x in there or [])}
-            wrong += [] if alike or there is None or compares else [f"nothing here is {line.strip()}"]
+            for cell in re.split("[|]", block):  # one line has all numbers of a cell
+                words = [w for w in FIGURE.findall(cell) if w in shown]
+                met.update(words if any(all(is_in(w, of, 0.6) for w in words) for of in there or []) else [])
+        elif kind == "in" or compares:
+            there = numbers_in(rest) if kind == "in" else named(rest)
+            alike = {w for w in shown if is_in(w, there)}
+            wrong += [] if alike or compares else [f"nothing here is {line.strip()}"]
             met |= alike
-        elif kind in ("rows", "formula", "by", "bench", "from"):
+        elif kind in ("rows", "formula", "by", "bench", "from", "prints"):
             pass
         elif turns and not everything and k % 4 != turn % 4:
             continue

@@ -16,15 +16,17 @@ def tag_K7():
     t = value(printed(PAGE, "t = 0.0740956").split("=")[1])
     A = lambda f, t=t: value(text, t=t, w=f(-1.0), v=f(0.0), y=f(1.0), z=f(2.0))
     close([A(lambda x: 1 + 0*x), A(lambda x: x), A(lambda x: x**2) + 1], [0, -1, 1])  # second order at x_i
-    printed(PAGE, r"\eta = -\frac{1}{4\pi}\int_0^\pi \frac{\ln\left(|\hat A|\,\hat F\right)}{\sin^2(\theta/2)}\,d\theta")
+    printed(PAGE, r"\eta = -\frac{1}{4\pi}\int_0^\pi \frac{\ln\left(|\hat A|\,\hat F\right)}{\sin^2(\theta/2)}\,d\theta "
+            r"\qquad (\text{upstream: with } 2\sin(\theta/2) \text{ for } \hat A, \text{ and } \tfrac14 \text{ more})")
     def F(th):  # the symbol of -ln abs(x - s) over elements: that of the transform pi/abs(k), wrapped
         k = th + 2*np.pi*np.arange(-200, 201)
         return (np.pi/abs(k)*np.sin(k/2)/(k/2)).sum()
     def eta(t):
-        hat = lambda th: abs((1 - t)/4*np.exp(-1j*th) + (3 + 3*t)/4 - (5 + 3*t)/4*np.exp(1j*th) + (1 + t)/4*np.exp(2j*th))
+        hat = lambda th: 2*np.sin(th/2) if t is None else abs((1 - t)/4*np.exp(-1j*th) + (3 + 3*t)/4 - (5 + 3*t)/4*np.exp(1j*th) + (1 + t)/4*np.exp(2j*th))
         return -integrate.quad(lambda th: np.log(hat(th)*F(th)/np.pi)/np.sin(th/2)**2, 1e-4, np.pi, limit=200)[0]/(4*np.pi)
-    row = printed(PAGE, "| eta | 0.325347 | 0.142334 | 0.016330 | 0 | -0.174653 |").split("|")[3:7]
-    close([eta(-0.5), eta(0), eta(t), eta(1)], [float(x) for x in row], 2e-3)
+    printed(PAGE, "| operator | upstream | t = -0.5 | 0 | 0.0740956 | 1 |")
+    row = printed(PAGE, "| eta | 0.325347 | 0.142334 | 0.016330 | 0 | -0.174653 |").split("|")[2:7]
+    close([eta(None) + 1/4, eta(-0.5), eta(0), eta(t), eta(1)], [float(x) for x in row], 2e-3)
 
 
 def tag_T1():
@@ -104,9 +106,10 @@ def tag_F6():
 
 def tag_F1_F2_F3():
     printed(PAGE, "mu_s = mu + m1 + m2"), printed(PAGE, "G = (mu_s - mu) p d")
-    for text in [r"\mu + m_1 2^{-v/s_1} + m_2 2^{-v/s_2}", r"\mu + \frac{m_1}{1 + v/s_1} + \frac{m_2}{1 + (v/s_2)^2}",
-                 r"\mu + m_1\max\left(0,\, 1 - \frac{v}{2s_1}\right) + m_2\max\left(0,\, 1 - \frac{v}{2s_2}\right)"]:
-        at = [value(printed(PAGE, text), mu=0.2, m_1=0.1, m_2=0.04, s_1=8.0, s_2=8.0, v=v) for v in (0.0, 8.0)]
+    for text in [r"\text{exponential} \quad & \mu(v) = \mu + m_1 2^{-v/s_1} + m_2 2^{-v/s_2}",
+                 r"\text{rational} \quad & \mu(v) = \mu + \frac{m_1}{1 + v/s_1} + \frac{m_2}{1 + (v/s_2)^2}",
+                 r"\text{linear} \quad & \mu(v) = \mu + m_1\max\left(0,\, 1 - \frac{v}{2s_1}\right) + m_2\max\left(0,\, 1 - \frac{v}{2s_2}\right)"]:
+        at = [value(printed(PAGE, text).split("=")[1], mu=0.2, m_1=0.1, m_2=0.04, s_1=8.0, s_2=8.0, v=v) for v in (0.0, 8.0)]
         close(at, [0.34, 0.27])  # a slip scale is where half of the fall is lost
     text = printed(PAGE, "mu(v_i) + (mu_before - mu(v_i)) exp(-max(v_i, s0) c_i/(V d))").replace("mu(v_i)", "m")
     names = dict(m=0.2, mu_before=0.3, v_i=5.0, s0=1.0, c_i=0.01, V=100.0, d=1e-3)
@@ -204,7 +207,7 @@ def tag_U3_edges():
 
 
 def tag_E3():
-    text = printed(PAGE, r"1 + \tfrac{3}{2} \left[ s \arccos s - t + \tfrac{1}{3} t^3 \right]").replace(r"\tfrac{3}{2} \left[ s \arccos s", r"(3/2)*\left[ s*acos(s)").replace(r"\tfrac{1}{3}", "(1/3)")
+    text = printed(PAGE, r"\frac{\lvert Q \rvert}{\mu W} = 1 + \tfrac{3}{2} \left[ s \arccos s - t + \tfrac{1}{3} t^3 \right]").split("=")[1].replace(r"\tfrac{3}{2} \left[ s \arccos s", r"(3/2)*\left[ s*acos(s)").replace(r"\tfrac{1}{3}", "(1/3)")
     printed(PAGE, r"s = abs(xi) R_eq/(mu a) < 1")
     for s in (0.1, 0.5, 0.9):  # strips: a sin(phi), p_0 sin(phi)
         of = lambda phi: np.sin(phi)**3*(1 - max(0, 1 - s/np.sin(phi))**2)

@@ -48,7 +48,7 @@ def tag_B3():
     names["W"] = value(printed(PAGE, "W = (X^2 + d^2 - a^2)^2 + (2ad)^2").split("=")[1], **names)
     names["Lam"] = value(printed(PAGE, r"\operatorname{atanh}\frac{2aX}{S}"), **names)
     names["Th"] = value(printed(PAGE, r"\operatorname{atan2}(2ad,\; X^2 + d^2 - a^2)"), **names)
-    L = value(printed(PAGE, r"X\,\mathrm{Lam} + \tfrac{a}{2}\ln W - 2a + d\,\mathrm{Th}"), **names)
+    L = value(printed(PAGE, r"L &= X\,\mathrm{Lam} + \tfrac{a}{2}\ln W - 2a + d\,\mathrm{Th} && \textstyle(= \int \ln r\,ds)").split("=")[1].split("&&")[0], **names)
     ends = [np.hypot(*(m + s*a*t)) for s in (-1, 1)]
     close(names["Lam"], np.log(ends[1]/ends[0]))
     close(L, sum(a*w*np.log(np.hypot(*(m + a*x*t))) for x, w in zip(nodes, weights)))
@@ -58,9 +58,9 @@ def tag_B6():
     s = rollbem.solve(support="halfplane", young=210000, poisson=0.3, radius=100, gap="parabola", approach=0.03, zone=2,
                       mesh="uniform", contact_elements=4, mu=0.3)
     c = value(printed(PAGE, r"\frac{(1-2\nu)(1+\nu)}{2E}"), nu=0.3, E=210000)
-    of = value(printed(PAGE, r"-\frac{2(1-\nu^2)}{\pi E}").replace("{2(", "{2*("), nu=0.3, E=210000)
-    printed(PAGE, r"\int p(s)\,\ln\frac{|x-s|}{d}\,ds + c\int q(s)\,\operatorname{sgn}(x-s)\,ds")
-    printed(PAGE, r"\int q(s)\,\ln\frac{|x-s|}{d}\,ds - c\int p(s)\,\operatorname{sgn}(x-s)\,ds")
+    of = value(printed(PAGE, r"w_N(x) &= -\frac{2(1-\nu^2)}{\pi E}\int p(s)\,\ln\frac{|x-s|}{d}\,ds + c\int q(s)\,\operatorname{sgn}(x-s)\,ds")
+               .split("&= ")[1].split(r"\int")[0].replace("{2(", "{2*("), nu=0.3, E=210000)
+    printed(PAGE, r"w_T(x) &= -\frac{2(1-\nu^2)}{\pi E}\int q(s)\,\ln\frac{|x-s|}{d}\,ds - c\int p(s)\,\operatorname{sgn}(x-s)\,ds")
     d, n = value(printed(PAGE, "d = 2R/e, the default").split("=")[1].split(",")[0], R=100, e=np.e), 4
     x = np.array(s.x)
     log = lambda y: y*np.log(abs(y)/d) - y
@@ -158,6 +158,7 @@ def tag_K1_K2_K3_D1_B5():
 
 
 def tag_K6():
+    printed(PAGE, r"\text{column of } \xi' &: \quad s\,e_T \text{ in every slip row} \quad (e_T\text{: slip per unit of } \xi, \text{ 4.2})")
     load = printed(PAGE, r"w_\delta = \sum p\,h - P \ge 0").split("=")[1].split(r"\ge")[0].replace(r"\sum", "")
     force = printed(PAGE, r"w_\xi = -s\left(\sum q\,h - Q\right) \ge 0").split("=")[1].split(r"\ge")[0].replace(r"\sum", "").replace("-s", "-s*")
     slides = printed(PAGE, "sum q h = s mu P and w_xi = -(mu P - s Q) <= 0").split(" and w_xi =")
