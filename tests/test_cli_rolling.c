@@ -51,6 +51,13 @@ static const struct {
     {"stress --grid 10x1", 64, "got '10x1'"},
     {"stress --grid 10x5y", 64, "got '10x5y'"},
     {"stress --grid 9x9 --points p", 64, "--points: not together with --grid"},
+    {"stress --whole --support halfplane", 64, "--whole: body A is a half-plane, which has no end"},
+    {"stress --whole --body b --young-b 1e4 --support-b halfplane", 64,
+     "--whole: body B is a half-plane, which has no end; the whole of a wheel needs --support-b "
+     "arc"},
+    {"stress --whole --depth 3", 64, "--whole: not together with --depth"},
+    {"stress --whole --points p", 64, "--whole: not together with --points"},
+    {"stress --whole --vtk a.vti", 64, "--vtk: .vti holds regular grids"},
     {"stress --depth 0", 64, "--depth: expected a number > 0 or auto"},
     {"stress --vtk a.vts", 64, "--vtk: expected a name ending in .vti or .vtu"},
     {"stress --vtk a.vti", 64, "--vtk: .vti holds regular grids, that of a wheel"},
@@ -808,6 +815,10 @@ TEST(pictures_in_every_kind)
         "stress " SIMILAR "--contact-elements 8 --grid 5x3 --plot a",
         "stress " SIMILAR "--contact-elements 8 --grid 5x3 --fringes a",
         "stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown --shakedown-map a",
+        "stress --whole --approach 0.5 --contact-elements 8 --outer-elements 24 --grid 5x3 --plot "
+        "a",
+        "stress --whole --approach 0.5 --contact-elements 8 --outer-elements 24 --grid 5x3 "
+        "--dimensionless --fringes a",
         "wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 --wear-steps 2 "
         "--contact-elements 20 --plot a",
         "sweep --restart " SIMILAR
@@ -830,7 +841,7 @@ TEST(pictures_in_every_kind)
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++)
         for (int i = 0; i < KINDS; i++) {
             char line[500], name[20];
-            if (i > 0 && !is_in_turn((int)k + i, KINDS - 1))
+            if (!is_in_turn((int)k, 3) || (i > 0 && !is_in_turn((int)k / 3 + i, KINDS - 1)))
                 continue;
             snprintf(line, sizeof line, "%s.%s --output out.tsv", pictures[k], kinds[i].ending);
             snprintf(name, sizeof name, "a.%s", kinds[i].ending);
@@ -1091,6 +1102,48 @@ TEST(the_largest_stress_covers_no_contour)
              number_in(json_object_get(maxima, "max_shear"), "value"));
     slurp("s.gp", out, sizeof out);
     assert_non_null(strstr(out, title));
+}
+
+/* The grid of a whole wheel in the units and signs of its body, checked anew; its pictures reach
+ * around it, with levels below the peaks at the contact and at the support. */
+TEST(a_whole_wheel_is_shown)
+{
+    static const char *const bodies[] = {"", "--body b "};
+    static const char line[] = "stress --whole --similar --radius-b 30 --support-b hub --load 1e5 "
+                               "--mu 0.3 --force-ratio 0.5 --contact-elements 16 --outer-elements "
+                               "40 --grid 17x5 --quiet ";
+    char text[600];
+    for (int of_b = 0; of_b < 2; of_b++) {
+        rb_format(text, sizeof text, "%s--json %s", line, bodies[of_b]);
+        held_json *root = run_json(text);
+        const json_t *y = json_object_get(json_object_get(root, "grid"), "y_mm");
+        assert_true(json_is_true(json_object_get(root, "whole")));
+        CHECK_REL(json_number_value(json_array_get(y, of_b ? 4 * 17 : 0)), of_b ? -60.0 : 100.0,
+                  1e-12, "the far end of the wheel");
+        rb_format(text, sizeof text, "\"$R\" %s--json %s>w.json && \"$R\" check w.json", line,
+                  bodies[of_b]);
+        assert_int_equal(shell(text), 0);
+    }
+    /* the script, without a gnuplot that would draw it */
+    rb_format(
+        text, sizeof text,
+        "PATH=/nonexistent \"$R\" %s--body b --fringes f.svg --plot-script f.gp --output o.tsv "
+        "--dimensionless",
+        line);
+    assert_int_equal(shell(text), 70);
+    assert_int_equal(shell("awk '/^y_from/ { f = $3 } /^y_to/ { t = $3 } /^x_to/ { x = $3 } "
+                           "END { exit !(t == 0 && f / x > 1.99 && f / x < 2.01) }' f.gp"),
+                     0);
+    assert_int_equal(shell("awk '/^fringe =/ { n = $3 } /^last_fringe =/ { l = $3 } "
+                           "END { exit !(l > 5 * n && l < 25 * n) }' f.gp"),
+                     0);
+    /* what is narrower than a cell has no fringes: light and dark are averaged */
+    assert_int_equal(
+        shell("awk -F '\t' '/\tcontrast/ { on = 1; next } /^EOD/ { on = 0 } "
+              "on && NF == 5 && $5 != \"NaN\" { n++; faint += $5 < 0.5; bad += $5 < 0 || $5 > 1 } "
+              "END { print n, faint, bad; exit !(n > 50000 && faint > 0.005 * n && faint < 0.3 * n "
+              "&& bad == 0) }' f.gp"),
+        0);
 }
 
 /* Stress is not divided by mu, and its table says of which contact a and p0 are. */

@@ -35,6 +35,90 @@ TEST(grid_holds_the_stress_of_its_points)
     }
 }
 
+/* A disc between two opposite forces: two radial fields and a uniform tension, which free its
+ * circle of stress (Hertz 1883). */
+static rb_rolling_stress of_disc(double P, double D, double x, double y)
+{
+    const double z = D - y, below = gsl_pow_2(x * x + y * y), above = gsl_pow_2(x * x + z * z);
+    const double c = 2.0 * P / M_PI;
+    rb_rolling_stress s = {.x = x, .y = y};
+    s.sxx = c / D - c * (x * x * y / below + x * x * z / above);
+    s.syy = c / D - c * (y * y * y / below + z * z * z / above);
+    s.sxy = c * (x * z * z / above - x * y * y / below);
+    s.max_shear = hypot(0.5 * (s.sxx - s.syy), s.sxy);
+    return s;
+}
+
+/* Two discs that touch in .014 R and are held in arcs of .005 R: farther than .3 R from both ends
+ * of the diameter they are those of two forces, up to the square of .014/.3. */
+TEST(a_whole_disc_is_that_of_two_forces)
+{
+    const double P = 1000.0, D = 100.0, centre = 4.0 * P / (M_PI * D);
+    const rb_rolling_case rc =
+        with(rolling_case("similar support arc arc 0.3 poisson 0.5 load 1000 "
+                          "mu 0 outer-elements 400"),
+             "radius-b 50");
+    OWNED(rb_rolling_model) model;
+    rb_rolling_mirror *mirror;
+    CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
+    CHECK_OK(rb_rolling_mirror_create(&model, &mirror, &heard));
+    for (int of_b = 0; of_b < 2; of_b++) {
+        OWNED(rb_rolling_stress_grid) grid;
+        int far = 0;
+        CHECK_OK(rb_rolling_stress_on_grid(of_b ? &mirror->model : &model, 61, 21, INFINITY, &grid,
+                                           &heard));
+        for (int k = 0; k < 61 * 21; k++) {
+            const rb_rolling_stress *got = &grid.at[k], want = of_disc(P, D, got->x, got->y);
+            CHECK_MAX(hypot(got->x, got->y - 0.5 * D), 0.5 * D * (1.0 + 1e-12), "on the disc");
+            if (fmin(hypot(got->x, got->y), hypot(got->x, got->y - D)) < 15.0)
+                continue;
+            CHECK_ABS(got->sxx, want.sxx, 0.005 * centre, "sxx at (%g, %g)", got->x, got->y);
+            CHECK_ABS(got->syy, want.syy, 0.005 * centre, "syy at (%g, %g)", got->x, got->y);
+            CHECK_ABS(got->sxy, want.sxy, 0.005 * centre, "sxy at (%g, %g)", got->x, got->y);
+            CHECK_ABS(got->max_shear, want.max_shear, 0.005 * centre, "shear");
+            far++;
+        }
+        CHECK_REL(grid.at[20 * 61].max_shear, centre, 3e-4, "4 P/(pi D) at the centre");
+        assert_in_range(far, 900, 1000);
+    }
+    rb_rolling_mirror_free(mirror);
+}
+
+/* From the surface to the hub or the bond, all around; a half-plane has no end. */
+TEST(a_whole_wheel_ends_where_its_material_does)
+{
+    static const struct {
+        const char *words;
+        double inner; /* radius */
+    } wheels[] = {{"support arc outer-elements 40", 0.0},
+                  {"support hub hub-ratio 0.4 outer-elements 40", 20.0},
+                  {"support hub cover-thickness 8", 42.0}};
+    for (size_t k = 0; k < sizeof wheels / sizeof *wheels; k++) {
+        const rb_rolling_case rc =
+            with(rolling_case("half-width 5 contact-elements 24"), "%s", wheels[k].words);
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_stress_grid) grid;
+        int outside = 0;
+        CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
+        CHECK_OK(rb_rolling_stress_on_grid(&model, 33, 9, INFINITY, &grid, &heard));
+        for (int i = 0; i < 33 * 9; i++)
+            outside += !grid.inside[i] || isnan(grid.at[i].sxx);
+        CHECK_MAX(outside, 2, "a corner of the polygon at most");
+        CHECK_ABS(grid.at[16].y, 0.0, 1e-12, "below the contact");
+        CHECK_ABS(grid.at[16].x, 0.0, 1e-12, "in the middle of the row");
+        CHECK_REL(grid.at[0].y, 100.0, 1e-12, "opposite it");
+        for (int i = 0; i < 33; i++)
+            CHECK_ABS(hypot(grid.at[8 * 33 + i].x, grid.at[8 * 33 + i].y - 50.0), wheels[k].inner,
+                      1e-9, "inner circle");
+    }
+    const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
+    OWNED(rb_rolling_model) model;
+    rb_rolling_stress_grid grid;
+    CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
+    CHECK_SAYS(rb_rolling_stress_on_grid(&model, 9, 4, INFINITY, &grid, &heard), RB_EINVAL,
+               "a half-plane has no end");
+}
+
 /* rb_rolling_inside says where rb_rolling_stress_at has an answer. */
 TEST(inside_is_where_there_is_stress)
 {

@@ -233,7 +233,7 @@ int rb_api_stress_of(rb_api *a, int of_b);
 int rb_api_tractions(rb_api *a, int n, const double *x, const double *p, const double *q);
 /* Stress below the surface on nx x ny points, y increasing, down to a depth [length] (0:
  * automatic). */
-int rb_api_stress(rb_api *a, int nx, int ny, double depth);
+int rb_api_stress(rb_api *a, int nx, int ny, double depth); /* INFINITY: of the whole wheel */
 /* Moves the contact of a handle for "crack" over a crack in body B.  names and values: n
  * options of `rollbem crack` ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);

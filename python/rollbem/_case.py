@@ -707,13 +707,15 @@ class Stress(_Named):
     solution: Solution
     maxima: "dict[str, Extremum]"
     body: str
+    whole: bool  #: of a whole wheel
 
     _tables = ("stress",)
 
-    def __init__(self, solution: Solution, maxima: dict, body: str = "a") -> None:
+    def __init__(self, solution: Solution, maxima: dict, body: str = "a", whole: bool = False) -> None:
         # copied: the next stress of the same solution is made in the same memory
         found = solution._live().arrays("stress", "stress.", copied=True)
         self.solution, self.maxima, self.body, self._system = solution, maxima, body, solution._system
+        self.whole = whole
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
 
@@ -925,10 +927,11 @@ def _given(case: Case, tractions: Any) -> Solution:
 
 def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (61, 41),
            depth: Optional[float] = None, points: Any = None, body: str = "a", tractions: Any = None,
-           **options: Any) -> Stress:
+           whole: bool = False, **options: Any) -> Stress:
     """Stress below the surface of A, or with ``body="b"`` of B, on a grid or at points (n x 2: x, y > 0 inside A, y < 0
     inside B).
 
+    ``whole``: on a grid around a whole wheel, from its surface inwards.
     ``case`` may be a :class:`Solution`, which is not solved again.  ``tractions`` are x, p and q (or x and p) as columns or
     as arrays of a dict, linear between places that increase, twice the same x a jump: on half-planes, and then no contact
     is solved; of ``solution`` the numbers normal_load, tangential_load, resistance_moment, max_pressure and half_width are
@@ -943,10 +946,12 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
     elif isinstance(case, Solution) and not options:
         solution = case
     else:
-        whole = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)
-        solution = whole._solve("stress")
+        given = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)
+        solution = given._solve("stress")
         _warn(solution.notes)
     handle = solution._live()
+    if whole and (depth is not None or points is not None):
+        raise InvalidInput(f"whole=: not together with {'depth' if points is None else 'points'}=")
     depth = 0.0 if depth is None else _values.number("depth", depth)
     with handle.lock:  # what the call has made is read before another thread calls
         handle.check(handle.run("rb_api_stress_of", int(body == "b")))
@@ -962,13 +967,14 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
         if points is None:
             if np.ndim(grid) != 1 or len(grid) != 2:
                 raise InvalidInput(f"grid=: expected two whole numbers, got {grid!r}")
-            handle.check(handle.run("rb_api_stress", *(_values.whole("grid", n, 2) for n in grid), depth))
+            handle.check(handle.run("rb_api_stress", *(_values.whole("grid", n, 2) for n in grid),
+                                    float("inf") if whole else depth))
         else:
             xy = np.ascontiguousarray(_values.array("points", points))
             if xy.ndim != 2 or xy.shape[1] != 2 or len(xy) == 0:
                 raise InvalidInput(f"points=: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
             handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
-        return Stress(solution, maxima, body)
+        return Stress(solution, maxima, body, whole)
 
 
 def wear(case: _CaseLike = None, *, coefficient: float, slide: Optional[float] = None,

@@ -274,6 +274,15 @@ def close(figure: Any) -> None:
     pyplot.close(figure)
 
 
+def _last_shown(of: Any, values: np.ndarray) -> float:
+    """Of a whole wheel three times the mean over its area, as in the program's pictures."""
+    x, y = of.x, of.y
+    cell = np.abs((x[:-1, 1:] - x[:-1, :-1]) * (y[1:, :-1] - y[:-1, :-1])
+                  - (y[:-1, 1:] - y[:-1, :-1]) * (x[1:, :-1] - x[:-1, :-1]))
+    there = np.isfinite(values[:-1, :-1])
+    return 3.0 * float(np.average(np.abs(values[:-1, :-1][there]), weights=cell[there]))
+
+
 def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any = None,
              dimensionless: bool = False) -> Any:
     """Contours of a field below the contact, its largest value marked; in units, or over x/a and depth/a, in p0."""
@@ -289,7 +298,9 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any
         down = -1.0 if of.body == "b" else 1.0
     x, y = of.x / length, down * of.y / length
     figure, (axes,) = _figure(figure, 1, ax)
-    filled = axes.contourf(x, y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
+    levels = np.linspace(0.0, _last_shown(of, values) / unit, 13) if of.whole else 12
+    filled = axes.contourf(x, y, np.ma.masked_invalid(values) / unit, levels, cmap="viridis",
+                           extend="both" if of.whole else "neither")
     lines = axes.contour(x, y, np.ma.masked_invalid(values) / unit, filled.levels,
                          colors="white", linewidths=0.4)
     axes.clabel(lines, fontsize=7)

@@ -163,6 +163,16 @@ def test_pictures_of_several_cases():
     for body in ("a", "b"):
         axes = rollbem.stress(one, grid=(5, 4), body=body).plot(dimensionless=True).axes[0]
         assert axes.get_ylabel() == "depth / a" and axes.get_ylim()[0] > axes.get_ylim()[1] == 0
+    wheel = rollbem.stress(support="hub", load=1e5, contact_elements=12, grid=(9, 5), whole=True)
+    assert np.hypot(wheel.x, wheel.y - 50)[0] == pytest.approx(50) and wheel.y[0, 0] == pytest.approx(100)
+    assert np.hypot(wheel.x, wheel.y - 50)[-1] == pytest.approx(15)  # its hub
+    contours = wheel.plot().axes[0]
+    assert contours.get_xlim()[1] == pytest.approx(-contours.get_xlim()[0]) and contours.get_ylim()[0] == pytest.approx(100)
+    for wrong in ({"depth": 1}, {"points": [[0, 1]]}):
+        with pytest.raises(rollbem.InvalidInput, match="not together with"):
+            rollbem.stress(support="hub", load=1e5, whole=True, **wrong)
+    with pytest.raises(rollbem.InvalidInput, match="half-plane has no end"):
+        rollbem.stress(one, whole=True)
     pyplot.close("all")
 
 

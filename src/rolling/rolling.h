@@ -799,7 +799,7 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
 rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy, int *inside);
 
 /* Stress on a grid that follows A's surface, row by row; the first row is on the
- * surface. */
+ * surface.  Of a whole wheel: around it, x = 0 below the contact in the middle of the row. */
 typedef struct {
     int nx, ny;
     rb_rolling_stress *at; /* nx x ny; stresses of points that are not inside are NAN; owned */
@@ -816,8 +816,8 @@ rb_status rb_rolling_temperature_inside(const rb_rolling_case *rc, const rb_roll
 rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                   rb_message *why);
 
-/* Computes the stress on a grid over the same width and depth as the maxima; nx, ny >= 2.
- * grid: overwritten. */
+/* Computes the stress on a grid over the same width and depth as the maxima; nx, ny >= 2; depth
+ * INFINITY: of the whole wheel (RB_EINVAL: half-planes).  grid: overwritten. */
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
                                     rb_rolling_stress_grid *grid, rb_message *why);
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);

@@ -124,6 +124,7 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
     const json_t *grid = json_object_get(root, "grid"),
                  *shakedown = json_object_get(root, "shakedown");
     const double depth = json_number_value(json_object_get(root, "depth")); /* 0: null */
+    const int whole = json_is_true(json_object_get(root, "whole"));
     const int of_b = strcmp(rb_certificate_word(root, "body"), "b") == 0;
     rb_rolling_mirror *mirror = NULL;
 
@@ -136,7 +137,8 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
         const double nx = rb_certificate_member(grid, "nx"), ny = rb_certificate_member(grid, "ny");
         const size_t n = json_array_size(json_object_get(grid, "x_mm"));
         status = nx >= 2.0 && ny >= 2.0 && nx * ny == (double)n
-                     ? rb_rolling_stress_on_grid(b.model, (int)nx, (int)ny, depth, &s->grid, why)
+                     ? rb_rolling_stress_on_grid(b.model, (int)nx, (int)ny,
+                                                 whole ? INFINITY : depth, &s->grid, why)
                      : rb_certificate_refuse(c, "its grid is not nx by ny points", why);
     } else
         status = points_again(c, json_object_get(root, "points"), &b, &s->grid, why);
@@ -159,6 +161,7 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
                                   .nx = grid ? s->grid.nx : 0,
                                   .ny = s->grid.ny,
                                   .n = grid ? s->grid.nx * s->grid.ny : s->grid.nx,
+                                  .whole = whole,
                                   .depth = depth,
                                   .at = s->grid.at,
                                   .maxima = &s->maxima,

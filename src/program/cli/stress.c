@@ -13,7 +13,7 @@ typedef struct {
     /* options */
     const char *grid, *points, *tractions, *vtk, *fringes, *map;
     double depth, fringe, yield_shear;
-    int shakedown, of_b;
+    int shakedown, of_b, whole;
     /* where the stress is asked for */
     int nx, ny;        /* of the grid */
     rb_io_table place; /* the file of points; rows = 0: the grid */
@@ -46,6 +46,9 @@ static const rb_option options[] = {
                    "of the grid and of the search for maxima; auto: a grid of 2.5 half-widths, "
                    "maxima in all of the body",
                    .word = "auto", .word_value = 0.0),
+    RB_FLAG_LINE("whole", PLACE(whole),
+                 "the grid and its pictures show the whole wheel: points around it, and from its "
+                 "surface inwards; contours and fringes are those far from the contact"),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
                  "instead of a grid: rows x, y [mm], y > 0 inside A, y < 0 inside B",
                  .unset = "none", .file = RB_FILE_READ),
@@ -75,7 +78,13 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
 /* Pictures are finer than tables, and fringes finer than contours. */
-enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
+enum {
+    CONTOURS_X = 161,
+    CONTOURS_Y = 101,
+    FRINGES_X = 241,
+    FRINGES_Y = 151,
+    WHOLE_FRINGES_X = 401
+};
 
 static const char about[] =
     "Solves a case and prints the stress in body A above the contact, or in B below it\n"
@@ -159,6 +168,15 @@ static cli_exit check(cli_case_run *run)
     if (!read_grid(st))
         return cli_case_refuse(run->words, "grid",
                                "expected two numbers >= 2 such as 61x41, got '%s'", st->grid);
+    if (st->whole && rb_rolling_body_can(st->of_b ? &run->c->rc.b : &run->c->rc.a, RB_BODY_FLAT))
+        return cli_case_refuse(
+            run->words, "whole",
+            "body %s is a half-plane, which has no end; the whole of a wheel needs "
+            "--support%s arc or hub",
+            st->of_b ? "B" : "A", st->of_b ? "-b" : "");
+    if (st->whole && (st->points || st->depth > 0.0))
+        return cli_case_refuse(run->words, "whole", "not together with --%s",
+                               st->points ? "points" : "depth");
     if (st->grid && st->points)
         return cli_case_refuse(run->words, "points,grid", "not together with --grid");
     if (!st->points)
@@ -196,6 +214,7 @@ static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress
                           .nx = grid->nx,
                           .ny = grid->ny,
                           .n = grid->nx * grid->ny,
+                          .whole = st->whole,
                           .depth = rb_unit_shown(run->c->units, "mm", st->depth),
                           .at = grid->at,
                           .inside = grid->inside,
@@ -255,7 +274,8 @@ static rb_status solve_points(stress *st, const rb_rolling_model *model, rb_mess
 static rb_status solve_grid(const stress *st, const rb_rolling_model *model, int nx, int ny,
                             rb_rolling_stress_grid *grid, rb_message *why)
 {
-    const rb_status s = rb_rolling_stress_on_grid(model, nx, ny, st->depth, grid, why);
+    const rb_status s =
+        rb_rolling_stress_on_grid(model, nx, ny, st->whole ? INFINITY : st->depth, grid, why);
     if (s == RB_OK && st->of_b)
         rb_rolling_mirror_grid(grid);
     return s;
@@ -339,7 +359,8 @@ static rb_status solve_stress(cli_case_run *run, rb_message *why)
             s = rb_rolling_temperature_inside(st->run.model.rc, &st->run.solution, st->of_b,
                                               st->at.nx * st->at.ny, st->at.at, why);
         if (s == RB_OK && st->fringes)
-            s = solve_grid(st, model, FRINGES_X, FRINGES_Y, &st->fine, why);
+            s = solve_grid(st, model, st->whole ? WHOLE_FRINGES_X : FRINGES_X, FRINGES_Y, &st->fine,
+                           why);
         else if (s == RB_OK && run->o.plot)
             s = solve_grid(st, model, CONTOURS_X, CONTOURS_Y, &st->fine, why);
         if (s == RB_OK && st->of_b) {
@@ -495,6 +516,7 @@ static void ask(const cli_case_run *run, json_t **members)
     rb_report_json_set(members, "maxima", json_true());
     rb_report_json_set(members, "depth", rb_report_json_number(st->depth > 0.0 ? st->depth : NAN));
     rb_report_json_set(members, "grid", grid);
+    rb_report_json_set(members, "whole", json_boolean(st->whole));
     rb_report_json_set(members, "points", json_boolean(st->points != NULL));
     rb_report_json_set(members, "shakedown", shakedown);
 }

@@ -316,6 +316,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
 typedef struct {
     int of_b; /* 1: of body B */
     int nx, ny, n;
+    int whole;                   /* 1: the grid is that of the whole wheel */
     double depth;                /* of the grid and of the maxima [length]; 0: 2.5 half-widths */
     const rb_rolling_stress *at; /* n; borrowed, as all here */
     const int *inside;           /* n; NULL: all */

@@ -171,6 +171,7 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(
         &of, "depth",
         number("of grid and maxima; null: a grid of 2.5 half-widths, maxima in all of the body"));
+    rb_report_json_set(&of, "whole", typed("boolean", "true: the grid is that of the whole wheel"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
                        typed("object", "of --derivatives: of each result with respect to each "

@@ -195,9 +195,10 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     for (int k = 0; k < GIVEN_LINES; k++)
         if (given_text(s, k, line, sizeof line))
             rb_report_comment(&c, "%s", line);
-    rb_report_comment(&c, s->of_b
-                              ? "tension positive; y < 0 inside B; the grid follows B's surface"
-                              : "tension positive; y > 0 inside A; the grid follows A's surface");
+    rb_report_comment(&c, "tension positive; y %c 0 inside %c; the grid %s %c%s",
+                      s->of_b ? '<' : '>', s->of_b ? 'B' : 'A',
+                      s->whole ? "goes around" : "follows", s->of_b ? 'B' : 'A',
+                      s->whole ? ", from its surface inwards" : "'s surface");
     for (int k = 0; k < count_maxima(s->maxima); k++)
         if (maximum_text(s, k, line, sizeof line))
             rb_report_comment(&c, "%s", line);
@@ -265,6 +266,8 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
         rb_report_json_set(root, "tractions", given);
     }
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
+    if (s->whole)
+        rb_report_json_set(root, "whole", json_true());
     json_t *all = json_object();
     for (int k = 0; k < count_maxima(s->maxima); k++) {
         const rb_rolling_extremum m = extremum(s->maxima, k);

@@ -3,7 +3,7 @@
 
 #include "rolling/case/closed_forms.h"
 
-#include <math.h>
+#include <gsl/gsl_math.h>
 
 typedef struct {
     const rb_report_stress *s;
@@ -14,7 +14,7 @@ typedef struct {
     int dimensionless;
     double from, to, depth; /* in units */
     double low, high;       /* of y, likewise */
-    double fringe;          /* [stress] */
+    double fringe;          /* [stress]; 0: of contours */
     double shape;           /* of the canvas: width over height */
     int column;             /* panels below each other */
 } view;
@@ -29,16 +29,64 @@ static view make_view(const rb_report_stress *s, int dimensionless)
               .stress = stress,
               .dimensionless = dimensionless};
     v.y_unit = dimensionless && s->of_b ? -v.length.size : v.length.size;
-    v.from = s->at[0].x / v.length.size;
-    v.to = s->at[s->nx - 1].x / v.length.size;
+    v.from = v.to = s->at[0].x / v.length.size;
     v.depth = 0.0;
-    for (int k = 0; k < s->n; k++)
+    for (int k = 0; k < s->n; k++) {
+        v.from = fmin(v.from, s->at[k].x / v.length.size);
+        v.to = fmax(v.to, s->at[k].x / v.length.size);
         if (rb_report_stress_is_inside(s, k))
             v.depth = fmax(v.depth, fabs(s->at[k].y) / v.length.size);
+    }
     /* books draw the depth downwards */
     v.low = dimensionless ? v.depth : s->of_b ? -v.depth : 0.0;
     v.high = dimensionless || s->of_b ? 0.0 : v.depth;
     return v;
+}
+
+/* The largest value that is drawn apart: of a whole wheel three times the mean over its area,
+ * because next to the contact the stress is far larger than in the rest of it. */
+static double last_shown(const view *v, double (*of)(const rb_rolling_stress *at), double largest)
+{
+    const rb_report_stress *s = v->s;
+    double sum = 0.0, area = 0.0;
+
+    for (int k = 0; s->whole && k < s->n - s->nx; k++) {
+        const rb_rolling_stress *at = &s->at[k], *next = at + 1, *above = at + s->nx;
+        if (k % s->nx == s->nx - 1 || !isfinite(of(at)))
+            continue;
+        const double cell =
+            fabs((next->x - at->x) * (above->y - at->y) - (next->y - at->y) * (above->x - at->x));
+        sum += of(at) * cell;
+        area += cell;
+    }
+    return area > 0.0 ? fmin(largest, 3.0 * sum / area) : largest;
+}
+
+static double shear_of(const rb_rolling_stress *at)
+{
+    return at->max_shear;
+}
+
+static double mises_of(const rb_rolling_stress *at)
+{
+    return at->von_mises;
+}
+
+/* How much of the dark and the light of fringes is left at a point: of cells that are as wide as a
+ * fringe nothing, as in a photograph. */
+static double contrast(const view *v, int k)
+{
+    const rb_report_stress *s = v->s;
+    const int i = k % s->nx,
+              neighbour[] = {i > 0 ? k - 1 : k, i < s->nx - 1 ? k + 1 : k,
+                             k >= s->nx ? k - s->nx : k, k < s->n - s->nx ? k + s->nx : k};
+    double orders = 0.0; /* from here to there, at most */
+
+    for (int j = 0; j < 4; j++)
+        if (rb_report_stress_is_inside(s, neighbour[j]))
+            orders = fmax(orders, 2.0 * fabs(s->at[neighbour[j]].max_shear - s->at[k].max_shear) /
+                                      v->fringe);
+    return orders >= 1.0 ? 0.0 : orders > 0.0 ? sin(M_PI * orders) / (M_PI * orders) : 1.0;
 }
 
 /* The points that are drawn, finer than those of the printed table; NaN outside the body. */
@@ -48,15 +96,21 @@ static void let_grid(FILE *out, const view *v)
     char x[RB_NUMBER_TEXT], y[RB_NUMBER_TEXT];
     const char *mm = rb_unit_name(s->s->units, "mm"), *stress = rb_unit_name(s->s->units, "MPa");
 
-    fprintf(out, "$table << EOD\nx_%s\ty_%s\tmax_shear_%s\tvon_mises_%s\n", mm, mm, stress, stress);
+    fprintf(out, "$table << EOD\nx_%s\ty_%s\tmax_shear_%s\tvon_mises_%s%s\n", mm, mm, stress,
+            stress, v->fringe > 0.0 ? "\tcontrast" : "");
     for (int k = 0; k < s->n; k++) {
         const rb_rolling_stress *at = &s->at[k];
         /* all digits: at the border of the picture none may lie outside */
         fprintf(out, "%s\t%s\t", rb_number_text(at->x, x), rb_number_text(at->y, y));
         if (rb_report_stress_is_inside(s, k))
-            fprintf(out, "%.7g\t%.7g\n", at->max_shear, at->von_mises);
+            fprintf(out, "%.7g\t%.7g", at->max_shear, at->von_mises);
         else
-            fputs("NaN\tNaN\n", out);
+            fputs("NaN\tNaN", out);
+        if (v->fringe > 0.0 && rb_report_stress_is_inside(s, k))
+            fprintf(out, "\t%.3g", contrast(v, k));
+        else if (v->fringe > 0.0)
+            fputs("\tNaN", out);
+        fputc('\n', out);
         if (k % s->nx == s->nx - 1)
             fputc('\n', out); /* rows apart, as splot wants them */
     }
@@ -84,6 +138,8 @@ static void let_axes(FILE *out, const view *v)
     rb_report_let(out, "y_from", v->low);
     rb_report_let(out, "y_to", v->high);
     rb_report_let_whole(out, "surface_above", v->high == 0.0);
+    rb_report_let_whole(out, "whole", v->s->whole);
+    rb_report_let_whole(out, "circles", v->s->ny);
     rb_report_let(out, "aspect", shown_aspect(v));
     rb_report_let_text(out, "x_label", "x %s%s%s", v->length.label,
                        v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
@@ -181,16 +237,6 @@ typedef struct {
     double (*of)(const rb_rolling_stress *at);
 } field;
 
-static double shear_of(const rb_rolling_stress *at)
-{
-    return at->max_shear;
-}
-
-static double mises_of(const rb_rolling_stress *at)
-{
-    return at->von_mises;
-}
-
 static void point_of_grid(const void *of, int k, double at[3])
 {
     const field *f = of;
@@ -207,8 +253,9 @@ static void let_panel(FILE *out, rb_report_canvas canvas, const view *v, int k, 
     const panel at = panel_of(v, k);
     const double largest = m->value / v->stress_unit, x = m->x / v->length.size,
                  y = m->y / v->y_unit;
+    const double last = last_shown(v, f->of, m->value) / v->stress_unit;
     const double step =
-        rb_report_round_step(largest / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
+        rb_report_round_step(last / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
     const rb_report_named numbers[] = {
         {"left", at.left},
         {"middle", at.middle},
@@ -219,8 +266,9 @@ static void let_panel(FILE *out, rb_report_canvas canvas, const view *v, int k, 
                               fmax(rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width), 4.0))},
         {"y_step",
          rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height)))},
-        {"scale_step", rb_report_round_step(largest / rb_report_labels_in(at.height))},
+        {"scale_step", rb_report_round_step(last / rb_report_labels_in(at.height))},
         {"level_step", step},
+        {"last", last},
         {"largest", largest},
         {"largest_x", x},
         {"largest_y", y}};
@@ -244,7 +292,7 @@ static void let_panel(FILE *out, rb_report_canvas canvas, const view *v, int k, 
                                                     .to = {v->to, v->high},
                                                     .first = step,
                                                     .step = step,
-                                                    .last = largest,
+                                                    .last = last,
                                                     .letter = {1.0 / (letters[0] * at.width),
                                                                1.0 / (letters[1] * at.height)},
                                                     .mark = (double[]){x, y}});
@@ -254,7 +302,10 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
 {
     const view *v = context;
 
-    let_all(out, v, v->s->of_b ? "Stress below the surface of B" : "Stress below the surface of A");
+    static const char *const titles[] = {"Stress below the surface of A",
+                                         "Stress below the surface of B",
+                                         "Stress in the whole of A", "Stress in the whole of B"};
+    let_all(out, v, titles[2 * v->s->whole + v->s->of_b]);
     let_panel(out, canvas, v, 0, &(field){v, shear_of}, &v->s->maxima->max_shear);
     let_panel(out, canvas, v, 1, &(field){v, mises_of}, &v->s->maxima->von_mises);
     fprintf(out, "number_font = ',%.3g'\n", number_font(canvas));
@@ -284,9 +335,13 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
 
-    let_all(out, v, v->s->of_b ? "Isochromatics of B" : "Isochromatics");
+    static const char *const titles[] = {"Isochromatics", "Isochromatics of B",
+                                         "Isochromatics of the whole of A",
+                                         "Isochromatics of the whole of B"};
+    let_all(out, v, titles[2 * v->s->whole + v->s->of_b]);
     rb_report_let(out, "fringe", v->fringe / v->stress_unit);
-    rb_report_let(out, "last_fringe", 2.0 * v->s->maxima->max_shear.value / v->stress_unit);
+    rb_report_let(out, "last_fringe",
+                  2.0 * last_shown(v, shear_of, v->s->maxima->max_shear.value) / v->stress_unit);
     rb_report_let(out, "x_step",
                   rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)));
     rb_report_let(out, "y_step", rb_report_round_step(v->depth / 5.0));
@@ -303,8 +358,8 @@ rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_
     else {
         /* A round number is easier to count with. */
         enum { ORDERS = 12 };
-        v.fringe = v.stress_unit * rb_report_round_step(2.0 * s->maxima->max_shear.value /
-                                                        (ORDERS * v.stress_unit));
+        const double last = last_shown(&v, shear_of, s->maxima->max_shear.value);
+        v.fringe = v.stress_unit * rb_report_round_step(2.0 * last / (ORDERS * v.stress_unit));
     }
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "fringes", write_fringes, &v, why);
 }

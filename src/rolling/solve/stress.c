@@ -338,18 +338,46 @@ static rb_rolling_stress nothing_at(double x, double y)
 }
 
 /* Under the contact between two edges and half as wide on either side of it, nx x ny points
- * down to the depth.  Free the grid in any case. */
+ * down to the depth. */
+static void place_below_contact(const rb_rolling_case *rc, double from, double to, double depth,
+                                int nx, int ny, double *xy)
+{
+    /* a wheel's grid stays below its own equator */
+    const double a = 0.5 * (to - from),
+                 widest = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? INFINITY : 0.9 * rc->a.radius,
+                 left = fmax(from - a, -widest), right = fmin(to + a, widest),
+                 deepest = depth > 0.0 ? depth : fmin(2.5 * a, deepest_stressed(rc));
+
+    for (int k = 0; k < nx * ny; k++) {
+        xy[2 * k] = left + (right - left) * (k % nx) / (nx - 1);
+        xy[2 * k + 1] = rb_rolling_surface(rc, xy[2 * k]) + deepest * ((double)(k / nx) / (ny - 1));
+    }
+}
+
+/* Around the whole wheel, ny circles of nx points from its surface to its centre, its hub or the
+ * bond of its cover: closer to each other at the surface, and there at the contact and at the
+ * support, where the stress changes most. */
+static void place_around_wheel(const rb_rolling_body *a, int nx, int ny, double *xy)
+{
+    const double R = a->radius, CLOSER = 0.9;
+    const double thickness = a->cover > 0.0             ? a->cover
+                             : a->support == RB_BEM_HUB ? R * (1.0 - a->hub_ratio)
+                                                        : R;
+
+    for (int k = 0; k < nx * ny; k++) {
+        const double part = 2.0 * (k % nx) / (nx - 1) - 1.0, inwards = (double)(k / nx) / (ny - 1),
+                     angle = M_PI * part - 0.5 * CLOSER * sin(2.0 * M_PI * part),
+                     depth = thickness * inwards * inwards;
+        xy[2 * k] = (R - depth) * sin(angle) + 0.0;                                 /* no -0 */
+        xy[2 * k + 1] = depth * cos(angle) + 2.0 * R * gsl_pow_2(sin(0.5 * angle)); /* (B9) */
+    }
+}
+
+/* Free the grid in any case. */
 static rb_status make_grid(const rb_rolling_model *model, double from, double to, double depth,
                            rb_rolling_stress_grid *grid, rb_message *why)
 {
     const int n = grid->nx * grid->ny;
-    /* a wheel's grid stays below its own equator */
-    const double a = 0.5 * (to - from),
-                 widest = rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)
-                              ? INFINITY
-                              : 0.9 * model->rc->a.radius,
-                 left = fmax(from - a, -widest), right = fmin(to + a, widest),
-                 deepest = depth > 0.0 ? depth : fmin(2.5 * a, deepest_stressed(model->rc));
     rb_arena scratch = {0};
     double *xy = rb_arena_doubles(&scratch, (size_t)n, 2),
            *kept = rb_arena_doubles(&scratch, (size_t)n, 2);
@@ -359,11 +387,10 @@ static rb_status make_grid(const rb_rolling_model *model, double from, double to
     if (scratch.failed || !grid->at || !grid->inside)
         return rb_arena_done(&scratch, RB_ENOMEM);
 
-    for (int k = 0; k < n; k++) {
-        xy[2 * k] = left + (right - left) * (k % grid->nx) / (grid->nx - 1);
-        xy[2 * k + 1] = rb_rolling_surface(model->rc, xy[2 * k]) +
-                        deepest * ((double)(k / grid->nx) / (grid->ny - 1));
-    }
+    if (isinf(depth))
+        place_around_wheel(&model->rc->a, grid->nx, grid->ny, xy);
+    else
+        place_below_contact(model->rc, from, to, depth, grid->nx, grid->ny, xy);
     rb_status s = rb_rolling_inside(model, n, xy, grid->inside);
     if (s != RB_OK)
         return rb_arena_done(&scratch, s);
@@ -395,6 +422,9 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     memset(grid, 0, sizeof *grid);
     if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
         return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d", nx, ny);
+    if (isinf(depth) && rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "grid: a half-plane has no end that a grid could reach; give a depth");
     rb_rolling_loaded_between(model, &from, &to);
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");

@@ -33,3 +33,5 @@ contour_numbers = "using 'x':'y':'level':(sprintf('%g', column('level'))) nocont
 # below the surface, with a line outside it where the bodies touch: thick where they slip
 set_field = "set view map; set tics scale 0.6; unset key; set pm3d map corners2color mean; set xrange [x_from:x_to]; set yrange [y_from:y_to]; part(k, i) = number($zones[i], k); \
     do for [i=2:|$zones|] { set arrow from part(1, i), graph beside to part(2, i), graph beside nohead linewidth (part(3, i) == 1 ? 2 : 6) linecolor rgb strong(int(part(3, i))) front }"
+# the first and the last circle of the grid around a whole wheel
+border_of_wheel = ", for [circle in '0 '.(circles - 1)] $table every :::int(circle)::int(circle) using (column('x_'.mm) / x_unit):(column('y_'.mm) / y_unit):(0) with lines nocontour linecolor rgb '#444444' linewidth 1"

@@ -1,5 +1,6 @@
 # Photoelastic fringes below the surface: between crossed polarisers light passes as sin^2 of pi times the
 # order.  $table: the points of the grid, NaN outside the body; $zones: where the bodies touch.
+# contrast: less than 1 where fringes are as narrow as the cells.
 beside = surface_above ? 1.018 : -0.018
 eval set_field
 set palette gray
@@ -23,4 +24,5 @@ field(value) = sprintf("$table using (column('x_'.mm) / x_unit):(column('y_'.mm)
 difference = "2 * column('max_shear_'.MPa) / stress_unit"
 set contour base
 set cntrparam levels incremental fringe, fringe, last_fringe
-if (filled) { eval 'splot '.field('sin(pi * '.difference.' / fringe)**2').' with pm3d nocontour' } else { eval 'splot '.field(difference).' '.contour_lines.'0.8' }
+brightness = "0.5 - 0.5 * column('contrast') * cos(2 * pi * ".difference." / fringe)"
+eval 'splot '.(filled ? field(brightness).' with pm3d nocontour' : field(difference).' '.contour_lines.'0.8').(whole ? border_of_wheel : '')

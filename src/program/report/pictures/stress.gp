@@ -29,9 +29,9 @@ do for [k=1:2] {
     # the value of the maximum stands in the title, where it covers no contour's
     set label 2 (k == 1 ? 'in-plane shear' : 'von Mises').stress_axis.',  largest '.of(k, 'largest_text').' at +' at screen of(k, 'left') + of(k, 'width') / 2, top(k) + (titled ? 0.05 : 0.03) center
     set label 3 '' at first of(k, 'largest_x'), first of(k, 'largest_y') point pointtype 1 pointsize 1.6 linewidth 1.6 linecolor rgb '#111111' front
-    set cbrange [0:of(k, 'level_step') * ceil(of(k, 'largest') / of(k, 'level_step'))]
-    set cntrparam levels incremental of(k, 'level_step'), of(k, 'level_step'), of(k, 'largest')
-    eval 'splot '.(filled ? '$table '.field(k).' with pm3d nocontour, ' : '').'$table '.field(k).' '.contour_lines.'0.6, '.sprintf('$numbers%d ', k).contour_numbers.' number_font'
+    set cbrange [0:of(k, 'level_step') * ceil(of(k, 'last') / of(k, 'level_step'))]
+    set cntrparam levels incremental of(k, 'level_step'), of(k, 'level_step'), of(k, 'last')
+    eval 'splot '.(filled ? '$table '.field(k).' with pm3d nocontour, ' : '').'$table '.field(k).' '.contour_lines.'0.6, '.sprintf('$numbers%d ', k).contour_numbers.' number_font'.(whole ? border_of_wheel : '')
     unset label 1
     unset label 4
     unset label 9
