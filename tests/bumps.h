@@ -25,7 +25,7 @@ static inline table *bumps(int n, const double *x, const double *height)
         for (int k = 0; k < n; k++)
             t->gap[i] = fmin(t->gap[i], gsl_pow_2(t->x[i] - x[k]) / 20.0 + height[k]);
     }
-    CHECK_OK(rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &heard));
+    CHECK_OK(rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &message));
     t->rc = rolling_case("support halfplane contact-elements 40 load 30");
     t->rc.gap = RB_GAP_TABLE;
     t->rc.profile = t->profile;

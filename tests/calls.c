@@ -83,7 +83,7 @@ static void compare(const results *before, double bound, const char *call)
 }
 
 /* Every result by name that the calls have left, and the notes. */
-static void look(void)
+static void print_results(void)
 {
     char more[] = "derivative.tangential_load derivative.p derivative.q derivative.value "
                   "derivative.approach.gap derivative.creepage.mu tolerance.tangential_load "
@@ -141,7 +141,7 @@ static void ask_all(void)
     asked("pivots", rb_api_pivots(handle));
     asked("newton", rb_api_newton(handle));
     asked("guess", rb_api_guess(handle, n < MOST ? n : MOST, zone));
-    look();
+    print_results();
 }
 
 static void set(const char *name, const char *text, int wanted)

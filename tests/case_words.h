@@ -24,11 +24,11 @@ static inline rb_case *case_of(rb_case_purpose purpose, const words *w, const ch
         length += (size_t)snprintf(text + length, sizeof text - length, "%s ", w->word[k]);
     for (char *option; (option = strtok_r(rest, " ", &rest));) {
         const char *given = NOT_NULL(strtok_r(NULL, " ", &rest));
-        CHECK_OK(rb_case_set(c, option, given, RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_set(c, option, given, RB_GIVEN_ARGUMENT, &message));
     }
-    if (name && rb_case_set_number(c, name, value, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
-    CHECK_OK(rb_case_resolve(c, &heard));
+    if (name && rb_case_set_number(c, name, value, &message) != RB_OK)
+        fail_msg("%s", message.text);
+    CHECK_OK(rb_case_resolve(c, &message));
     return c;
 }
 

@@ -24,7 +24,7 @@ static inline void set_option_(rb_resolved_case *all, const char *name, const ch
         *(double *)(void *)(place + o->offset) = atof(value);
     else
         CHECK_OK(rb_option_assign(&set, (int)(o - rb_case_table), 0, name, value ? value : "yes",
-                                  &heard));
+                                  &message));
     if (o->path && *(const int *)(const void *)(place + o->offset) == o->path_value)
         fail_msg("a file or a solver of another name: %s %s", name, value);
     if (o->into)

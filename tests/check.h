@@ -123,34 +123,34 @@ static inline void *not_null_(const void *pointer, const char *text, const char 
     CHECK_ABS(got, want, 0.06 * pow(10.0, floor(log10(fabs(want)))), __VA_ARGS__)
 /* got <= bound */
 #define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
-/* The status of a call, before which `heard` is empty. */
+/* The status of a call, before which `message` is empty. */
 #define CHECK_STATUS(call, want)                                                                   \
-    check_status_((strchr(#call, '(') ? heard.text[0] = '\0' : 0, (int)(call)), want, #call,       \
+    check_status_((strchr(#call, '(') ? message.text[0] = '\0' : 0, (int)(call)), want, #call,     \
                   __FILE__, __LINE__)
 #define CHECK_OK(call) CHECK_STATUS(call, RB_OK)
-/* The same, and what f(..., &heard) said has these words. */
+/* The same, and what f(..., &message) said has these words. */
 #define CHECK_SAYS(call, want, words)                                                              \
     do {                                                                                           \
         CHECK_STATUS(call, want);                                                                  \
         check_said_(words, __FILE__, __LINE__);                                                    \
     } while (0)
 
-/* For what a call has to say: f(..., &heard). */
-static rb_message heard __attribute__((unused));
+/* For what a call has to say: f(..., &message). */
+static rb_message message __attribute__((unused));
 
 static inline void check_status_(int got, int want, const char *call, const char *file, int line)
 {
     if (got == want)
         return;
-    print_error("%s: status %d, want %d: %s\n", call, got, want, heard.text);
+    print_error("%s: status %d, want %d: %s\n", call, got, want, message.text);
     _fail(file, line);
 }
 
 static inline void check_said_(const char *words, const char *file, int line)
 {
-    if (strstr(heard.text, words))
+    if (strstr(message.text, words))
         return;
-    print_error("'%s' does not say '%s'\n", heard.text, words);
+    print_error("'%s' does not say '%s'\n", message.text, words);
     _fail(file, line);
 }
 

@@ -25,7 +25,7 @@ static long resident_pages(void)
 }
 
 /* Halfplane and wheel, the formulations, elements from 9 to 32, creepage up to sliding. */
-static int solve(int k)
+static int solve_case(int k)
 {
     static const char *const formulation[] = {"static", "steady", "transient"};
     char text[40];
@@ -49,7 +49,7 @@ static int solve(int k)
 static void *work(void *nothing)
 {
     for (int k; (k = atomic_fetch_add(&next_solve, 1)) < solves;) {
-        if (solve(k) != 0)
+        if (solve_case(k) != 0)
             failed++;
         if (k == solves / 10)
             early = resident_pages();

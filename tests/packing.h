@@ -17,10 +17,10 @@ static inline void packing(const char *arguments, rb_friction_problem *p)
     close(file);
     snprintf(command, sizeof command, "%s/packings %s > %s", build, arguments, name);
     assert_int_equal(system(command), 0);
-    const rb_status s = rb_friction_read(name, p, &heard);
+    const rb_status s = rb_friction_read(name, p, &message);
     unlink(name);
     if (s != RB_OK)
-        print_error("%s\n", heard.text);
+        print_error("%s\n", message.text);
     CHECK_OK(s);
     const int m = p->dimension * p->contacts;
     if (p->form == RB_FRICTION_GLOBAL)

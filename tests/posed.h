@@ -27,9 +27,9 @@ static inline rb_rolling_case posed_plane(rb_rolling_formulation formulation)
 static inline posed pose(const rb_rolling_case *rc, const rb_rolling_past *past)
 {
     posed d = {.rc = *rc};
-    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &heard));
-    CHECK_OK(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &heard));
-    CHECK_OK(rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, -1.0, 0.8, &d.mesh, &message));
+    CHECK_OK(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &message));
+    CHECK_OK(rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &message));
     d.K = rb_contact_operator_matrix(d.p.op);
     return d;
 }

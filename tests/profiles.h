@@ -9,7 +9,7 @@ static inline rb_rolling_profile *profile_of(int n, const double *x, const doubl
                                              double noise)
 {
     rb_rolling_profile *profile;
-    CHECK_OK(rb_rolling_profile_create(n, x, gap, noise, &profile, &heard));
+    CHECK_OK(rb_rolling_profile_create(n, x, gap, noise, &profile, &message));
     return profile;
 }
 

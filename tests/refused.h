@@ -9,9 +9,9 @@
 
 static inline void check_refused(const rb_rolling_case *rc, const char *first, const char *second)
 {
-    CHECK_STATUS(rb_rolling_case_check(rc, &heard), RB_EINVAL);
-    if (!strstr(heard.text, first) || !strstr(heard.text, second))
-        fail_msg("'%s' does not name '%s' and '%s'", heard.text, first, second);
+    CHECK_STATUS(rb_rolling_case_check(rc, &message), RB_EINVAL);
+    if (!strstr(message.text, first) || !strstr(message.text, second))
+        fail_msg("'%s' does not name '%s' and '%s'", message.text, first, second);
 }
 
 /* A default case with these changes is refused with these words, or accepted. */

@@ -10,7 +10,7 @@ static inline rb_rolling_solution solved(const rb_rolling_case *rc)
 {
     rb_rolling_solution s;
     const double start = rb_seconds();
-    CHECK_OK(rb_rolling_solve(rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(rc, &s, &message));
     CHECK_MAX(s.seconds_total, rb_seconds() - start, "no more seconds than have passed");
     return s;
 }
@@ -24,14 +24,14 @@ static inline rb_rolling_case *case_of_model(rb_rolling_model *model)
 static inline rb_rolling_model solved_model(const rb_rolling_case *rc)
 {
     rb_rolling_model model;
-    CHECK_OK(rb_rolling_model_create(rc, &model, &heard));
+    CHECK_OK(rb_rolling_model_create(rc, &model, &message));
     return model;
 }
 
 static inline rb_rolling_solution solution_of(const rb_rolling_model *model)
 {
     rb_rolling_solution s;
-    CHECK_OK(rb_rolling_model_solution(model, &s, &heard));
+    CHECK_OK(rb_rolling_model_solution(model, &s, &message));
     return s;
 }
 

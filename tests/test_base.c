@@ -3,8 +3,8 @@
 
 TEST(refusals_write_their_line)
 {
-    CHECK_STATUS(rb_fail(&heard, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);
-    assert_string_equal(heard.text, "mu = -1: expected >= 0");
+    CHECK_STATUS(rb_fail(&message, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);
+    assert_string_equal(message.text, "mu = -1: expected >= 0");
     CHECK_STATUS(rb_fail(NULL, RB_ENOMEM, "nobody listens"), RB_ENOMEM);
 }
 
@@ -65,8 +65,8 @@ TEST(an_arena_fails_once_and_for_all_and_is_freed_at_once)
 
 TEST(absurd_sizes_are_refused_by_name)
 {
-    CHECK_OK(rb_memory_check(1e3, "a small thing", &heard));
-    CHECK_SAYS(rb_memory_check(1e18, "a contact of 9 elements", &heard), RB_EINVAL,
+    CHECK_OK(rb_memory_check(1e3, "a small thing", &message));
+    CHECK_SAYS(rb_memory_check(1e18, "a contact of 9 elements", &message), RB_EINVAL,
                "a contact of 9 elements would need 1e+09 GB");
 }
 

@@ -20,7 +20,7 @@ static rb_bem_mesh mesh_of(const rb_bem_cylinder *cylinder, int n_c, double a)
 {
     rb_bem_mesh mesh;
     SCRATCH double *ends = equal_ends(n_c, a);
-    CHECK_OK(rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, &message));
     return mesh;
 }
 
@@ -194,7 +194,7 @@ TEST(bad_cylinders_are_refused)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         OWNED(rb_bem_mesh) mesh;
-        CHECK_SAYS(rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &heard),
+        CHECK_SAYS(rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &message),
                    RB_EINVAL, bad[k].text);
         assert_null(mesh.x0); /* who is refused owns nothing */
     }
@@ -211,9 +211,9 @@ TEST(the_zone_ends_before_the_clamped_arc)
         for (int i = 0; i < 5; i++)
             ends[i] = 50.0 * sin(k < 2 ? reach - (4 - i) * arc : -reach + (1 + i) * arc);
         OWNED(rb_bem_mesh) mesh;
-        CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &heard),
+        CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &message),
                      k % 2 ? RB_EINVAL : RB_OK);
-        assert_true(k % 2 == (strstr(heard.text, "clamped arc of half-angle 1.57") != NULL));
+        assert_true(k % 2 == (strstr(message.text, "clamped arc of half-angle 1.57") != NULL));
     }
 }
 
@@ -296,7 +296,7 @@ TEST(spoilt_meshes_are_refused)
         OWNED(rb_bem_mesh) mesh = mesh_of(&on_arc, 10, 2.0);
         const int n = mesh.n;
         bad[k].how(&mesh);
-        CHECK_SAYS(rb_bem_mesh_check(&mesh, &heard), RB_EINVAL, bad[k].text);
+        CHECK_SAYS(rb_bem_mesh_check(&mesh, &message), RB_EINVAL, bad[k].text);
         mesh.n = n;
     }
     rb_bem_mesh mesh;
@@ -599,7 +599,7 @@ static rb_bem_material loaded_wheel(int on_the_hub, int of, double part, rb_bem_
       : of == 2    ? &m.poisson
       : on_the_hub ? &wheel.hub_ratio
                    : &wheel.arc) *= 1.0 + part;
-    CHECK_OK(rb_bem_mesh_cylinder(&wheel, LOADED, ends, mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(&wheel, LOADED, ends, mesh, &message));
     return m;
 }
 

@@ -111,13 +111,13 @@ TEST(every_element_is_of_the_same_arc)
             ends[i] = 2.0 * sin(-0.2 + 0.15 * i);
         if (k > 0)
             ends[k] += 1e-6;
-        CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, &heard),
+        CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, &message),
                      k ? RB_EINVAL : RB_OK);
         char text[80] = "";
         if (k)
             snprintf(text, sizeof text,
                      "disc: contact element %d has another length than the others", k);
-        assert_string_equal(heard.text, text);
+        assert_string_equal(message.text, text);
         for (int i = 0; i < n && !k; i++) /* arcs, not chords */
             CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])), 1e-14,
                       "length of element %d", i);

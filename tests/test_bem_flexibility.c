@@ -192,14 +192,15 @@ TEST(bad_input_is_refused)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         CHECK_SAYS(rb_bem_flexibility_surface(bad[k].n, bad[k].ends,
-                                              HALFPLANE(bad[k].material, bad[k].datum), &f, &heard),
+                                              HALFPLANE(bad[k].material, bad[k].datum), &f,
+                                              &message),
                    RB_EINVAL, bad[k].text);
         assert_null(f.x);
     }
     const double moved[] = {0.0, 1.0, 2.1};
     CHECK_OK(rb_bem_flexibility_surface(1, two, HALFPLANE(steel, 1.0), &a, NULL));
     CHECK_OK(rb_bem_flexibility_surface(1, moved, HALFPLANE(steel, 1.0), &b, NULL));
-    CHECK_SAYS(rb_bem_flexibility_pair(&a, &b, &f, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_bem_flexibility_pair(&a, &b, &f, &message), RB_EINVAL,
                "point 1 at x = 1.5 on A, 1.55 on B");
     assert_null(a.x);
     for (int e = -6; e <= 6; e += 6) /* of any unit of length */

@@ -208,7 +208,7 @@ TEST(bad_input_is_refused)
     const double outside[] = {0.5, 0.5, 1.5, 0.0, 0.7, 0.0}, hole[] = {0.1, 0.1},
                  nan[] = {NAN, 0.0};
     CHECK_SAYS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
-                               (rb_bem_points){3, outside}, NULL, s, &heard),
+                               (rb_bem_points){3, outside}, NULL, s, &message),
                RB_EINVAL, "point 1 at (1.5, 0) lies outside");
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                  (rb_bem_points){1, hole}, NULL, s, NULL),

@@ -82,11 +82,11 @@ static double distance_on_gliding_sides(int side)
     }
     mesh.contact_first = first;
     mesh.contact_n = touch;
-    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &heard));
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &message));
     const int m = touch + 1, all = 2 * m * 2 * touch;
     for (int k = 0; k < 2; k++) {
         CHECK_OK((k ? rb_bem_condense_subtracted : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE,
-                                                                    &f[k], &heard));
+                                                                    &f[k], &message));
         F[k] = rb_alloc((size_t)all, 1);
         CHECK_OK(rb_bem_flexibility_matrix(&f[k], F[k], 2 * m));
     }
@@ -126,10 +126,10 @@ TEST(a_hollow_contact_is_refused)
     mesh.contact_n = 1;
     for (int dof = 4; dof < 8; dof++) /* the right and the upper side */
         mesh.condition[dof] = RB_BEM_DISPLACEMENT;
-    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &heard));
-    CHECK_SAYS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard), RB_EINVAL,
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &message));
+    CHECK_SAYS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &message), RB_EINVAL,
                "outside the half-plane");
-    CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard));
+    CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &message));
 }
 
 /* Every contact element alone has the field of its mirror image, mirrored. */

@@ -13,7 +13,7 @@ enum { MANY = 4000 };
 static const rb_bem_material rubber = {1.2, 0.4}, soft = {1.0, 0.5}, core = {7.0, 0.3};
 
 /* Entries NN, TN, NT, TT of one strip [-b, b] seen from x. */
-static void seen(const rb_bem_surface *body, double x, double b, double entry[4])
+static void strip_entries(const rb_bem_surface *body, double x, double b, double entry[4])
 {
     const double ends[2] = {-b, b};
     CHECK_OK(rb_bem_surface_displacement(body, 1, ends, 1, &x, entry));
@@ -44,7 +44,7 @@ static double brought(double t, void *context)
 {
     const average *a = context;
     double entry[4];
-    seen(a->elastic, a->x + a->L * t, a->b, entry);
+    strip_entries(a->elastic, a->x + a->L * t, a->b, entry);
     return exp(-t) * entry[a->entry];
 }
 
@@ -82,8 +82,8 @@ TEST(memory_averages_what_lies_upstream)
         body.terms = 2;
         body.ratio = ratio;
         body.length = length;
-        seen(&body, x, b, got);
-        seen(&elastic, x, b, want);
+        strip_entries(&body, x, b, got);
+        strip_entries(&elastic, x, b, want);
         for (int e = 0; e < 4; e++)
             for (int k = 0; k < 2; k++) {
                 average a = {&elastic, x, b, length[k], e, 0.0};
@@ -106,16 +106,16 @@ TEST(memory_has_its_limits)
     body.ratio = &ratio;
     for (int k = 0; k < 2; k++) {
         body.length = k ? &tiny : &none;
-        seen(&body, 1.3, 0.2, got);
-        seen(&elastic, 1.3, 0.2, e);
+        strip_entries(&body, 1.3, 0.2, got);
+        strip_entries(&elastic, 1.3, 0.2, e);
         for (int j = 0; j < 4; j++)
             CHECK_ABS(got[j], 4.0 * e[j], 1e-8, "rubbery, entry %d", j);
     }
     body.length = &long_;
-    seen(&body, 1.3, 0.2, got);
-    seen(&body, 2.9, 0.2, other);
-    seen(&elastic, 1.3, 0.2, e);
-    seen(&elastic, 2.9, 0.2, e2);
+    strip_entries(&body, 1.3, 0.2, got);
+    strip_entries(&body, 2.9, 0.2, other);
+    strip_entries(&elastic, 1.3, 0.2, e);
+    strip_entries(&elastic, 2.9, 0.2, e2);
     for (int j = 0; j < 4; j += 3)
         CHECK_ABS(got[j] - other[j], e[j] - e2[j], 1e-8, "glassy, entry %d", j);
 }
@@ -177,7 +177,7 @@ TEST(layers_are_integrals_over_their_waves)
             const double x = 0.7 * j - 1.4, b = 0.3, d = 0.4 + 0.8 * k;
             const rb_bem_surface body = {.material = material[k], .thickness = d};
             double got[4];
-            seen(&body, x, b, got);
+            strip_entries(&body, x, b, got);
             for (int entry = 0; entry < 4; entry++) {
                 layer_entry e = {material[k], d, x, b, entry};
                 const double want = integral_over_waves(&e, 3000.0);
@@ -198,8 +198,8 @@ TEST(equal_materials_are_the_half_plane)
                                      .elastic_base = 1,
                                      .base = rubber};
         double got[4], want[4];
-        seen(&body, x, 0.2, got);
-        seen(&plane, x, 0.2, want);
+        strip_entries(&body, x, 0.2, got);
+        strip_entries(&plane, x, 0.2, want);
         for (int e = 0; e < 4; e++)
             CHECK_ABS(got[e], want[e], 1e-12, "x = %g, entry %d", x, e);
     }
@@ -213,22 +213,22 @@ TEST(layers_have_their_limits)
     rb_bem_surface body = {.material = rubber, .datum = 20.0, .elastic_base = 1, .base = core};
     double near[4], far[4], a[4], b[4];
     body.thickness = 1e6;
-    seen(&body, 0.1, 0.2, near);
-    seen(&body, 1.7, 0.2, far);
-    seen(&own, 0.1, 0.2, a);
-    seen(&own, 1.7, 0.2, b);
+    strip_entries(&body, 0.1, 0.2, near);
+    strip_entries(&body, 1.7, 0.2, far);
+    strip_entries(&own, 0.1, 0.2, a);
+    strip_entries(&own, 1.7, 0.2, b);
     for (int e = 0; e < 4; e++)
         CHECK_ABS(near[e] - far[e], a[e] - b[e], 1e-7, "thick, entry %d", e);
     body.thickness = 1e-5;
-    seen(&body, 0.7, 0.2, near);
-    seen(&under, 0.7, 0.2, a);
+    strip_entries(&body, 0.7, 0.2, near);
+    strip_entries(&under, 0.7, 0.2, a);
     for (int e = 0; e < 4; e++)
         CHECK_ABS(near[e], a[e], 1e-5, "thin, entry %d", e);
     body.thickness = 0.5;
     body.base.shear = 1e12;
-    seen(&body, 0.7, 0.2, near);
+    strip_entries(&body, 0.7, 0.2, near);
     body.elastic_base = 0;
-    seen(&body, 0.7, 0.2, far);
+    strip_entries(&body, 0.7, 0.2, far);
     for (int e = 0; e < 4; e++)
         CHECK_ABS(near[e], far[e], 1e-10, "stiff base, entry %d", e);
 }
@@ -239,7 +239,7 @@ TEST(thin_layers_are_mattresses)
     const rb_bem_surface body = {.material = rubber, .thickness = 0.01};
     const double nu = rubber.poisson, M = 2.0 * rubber.shear * (1.0 - nu) / (1.0 - 2.0 * nu);
     double got[4];
-    seen(&body, 0.1, 1.0, got);
+    strip_entries(&body, 0.1, 1.0, got);
     CHECK_REL(got[0], 0.01 / M, 1e-9, "pressure");
     CHECK_REL(got[3], 0.01 / rubber.shear, 1e-9, "friction");
 }
@@ -251,8 +251,8 @@ TEST(films_are_mattresses)
     for (double d = 1e-3; d > 1e-9; d *= 0.1) {
         const rb_bem_surface body = {.material = rubber, .thickness = d};
         double got[4], beside[4];
-        seen(&body, 0.1, 1.0, got);
-        seen(&body, 1.3, 1.0, beside);
+        strip_entries(&body, 0.1, 1.0, got);
+        strip_entries(&body, 1.3, 1.0, beside);
         CHECK_ABS(got[0], d / M, 1e-14, "pressure on d = %g", d);
         CHECK_ABS(got[3], d / rubber.shear, 1e-14, "friction on d = %g", d);
         CHECK_ABS(beside[0], 0.0, 1e-14, "beside the pressure on d = %g", d);
@@ -272,8 +272,8 @@ TEST(layers_remember)
         const double x = 0.6 * (j % 5) - 1.5;
         double got[4], want[4];
         body.length = &length[j / 5];
-        seen(&body, x, 0.25, got);
-        seen(&elastic, x, 0.25, want);
+        strip_entries(&body, x, 0.25, got);
+        strip_entries(&elastic, x, 0.25, want);
         for (int e = 0; e < 4; e++) {
             average a = {&elastic, x, 0.25, length[j / 5], e, j < 5 ? 0.0 : 15.0};
             want[e] += ratio * average_of(&a);
@@ -288,7 +288,7 @@ TEST(what_lies_far_away_is_met)
     const rb_bem_surface body = {.material = rubber, .thickness = 0.6};
     const double ends[2] = {-0.25, 0.25}, at = 18.0, x[2] = {at, 3.0 * at};
     double under[4], alone[4], together[8];
-    seen(&body, 0.0, 0.25, under);
+    strip_entries(&body, 0.0, 0.25, under);
     CHECK_OK(rb_bem_surface_displacement(&body, 1, ends, 1, &at, alone));
     CHECK_OK(rb_bem_surface_displacement(&body, 1, ends, 2, x, together));
     for (int e = 0; e < 4; e++)
@@ -314,8 +314,8 @@ TEST(transforms_are_the_dense_matrix)
         r[i] = sin(3.0 * i) + 0.4;
     for (int k = 0; k < 3; k++) {
         OWNED(rb_bem_flexibility) dense, fast;
-        CHECK_OK(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &heard));
-        CHECK_OK(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &heard));
+        CHECK_OK(rb_bem_flexibility_surface(n, ends, &bodies[k], &dense, &message));
+        CHECK_OK(rb_bem_flexibility_toeplitz(n, ends, &bodies[k], &fast, &message));
         CHECK_OK(rb_bem_flexibility_matrix(&dense, F, ld));
         CHECK_OK(rb_bem_flexibility_matrix(&fast, T, ld));
         for (int j = 0; j < ld * 2 * n; j++)
@@ -391,9 +391,9 @@ TEST(bad_surfaces_are_refused)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_bem_flexibility f;
-        CHECK_SAYS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_bem_flexibility_surface(1, ends, &bad[k].body, &f, &message), RB_EINVAL,
                    bad[k].word);
-        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &heard), RB_EINVAL);
+        CHECK_STATUS(rb_bem_flexibility_toeplitz(1, ends, &bad[k].body, &f, &message), RB_EINVAL);
     }
 }
 
@@ -404,7 +404,7 @@ TEST(short_memory_is_told)
     for (int i = 0, refused = 1; refused; i++) {
         body.material.poisson = 0.2 - 1e-3 * i; /* no table of it is kept */
         OWNED(rb_bem_flexibility) f = {0};
-        refused = REFUSED_FROM(i, rb_bem_flexibility_surface(3, ends, &body, &f, &heard));
+        refused = REFUSED_FROM(i, rb_bem_flexibility_surface(3, ends, &body, &f, &message));
         assert_true(refused || i > 5);
     }
 }

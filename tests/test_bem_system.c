@@ -35,7 +35,7 @@ static double radial_error(const rb_bem_mesh *mesh, const double *u, int first, 
     return error / fabs(want);
 }
 
-static void solve(const rb_bem_mesh *mesh, double *u, double *t)
+static void solve_boundary(const rb_bem_mesh *mesh, double *u, double *t)
 {
     held_system *system;
     CHECK_OK(rb_bem_system_create(mesh, material, &system, NULL));
@@ -51,7 +51,7 @@ static double disc_error(int n)
     hold_by_symmetry(&mesh, n);
     press(&mesh, 0, n, 5.0, 1.0);
     SCRATCH double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1);
-    solve(&mesh, u, t);
+    solve_boundary(&mesh, u, t);
     return radial_error(&mesh, u, 0, n, -5.0 * 2.0 * 0.4 / (2.0 * 80.0));
 }
 
@@ -71,7 +71,7 @@ static double thick_ring_error(int n)
     hold_by_symmetry(&mesh, n);
     press(&mesh, n, n, 3.0, -1.0);
     SCRATCH double *u = rb_alloc(4 * (size_t)n, 1), *t = rb_alloc(4 * (size_t)n, 1);
-    solve(&mesh, u, t);
+    solve_boundary(&mesh, u, t);
     const double error =
         fmax(radial_error(&mesh, u, 0, n, lame(2.0)), radial_error(&mesh, u, n, n, lame(1.0)));
     return error;
@@ -109,7 +109,7 @@ static double dirichlet_error(int n)
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
     for (int j = 0; j < n; j++) /* strain 0.01 along x, t_x = 2G (1-nu)/(1-2nu) 0.01 n_x */
         give(&mesh, j, RB_BEM_DISPLACEMENT, 0.01 * midpoint_x(&mesh, j), 0.0);
-    solve(&mesh, u, t);
+    solve_boundary(&mesh, u, t);
     for (int j = 0; j < n; j++) {
         const double x = midpoint_x(&mesh, j), y = midpoint_y(&mesh, j), r = hypot(x, y);
         const double along = 2 * 80.0 * 0.7 / 0.4 * 0.01, across = 2 * 80.0 * 0.3 / 0.4 * 0.01;
@@ -179,7 +179,7 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
     mesh.condition[1] = RB_BEM_DISPLACEMENT; /* the rightmost element, along y */
     mesh.value[1] = 0.0;
     held_system *system;
-    CHECK_OK(rb_bem_system_create(&mesh, (rb_bem_material){1.0, nu}, &system, &heard));
+    CHECK_OK(rb_bem_system_create(&mesh, (rb_bem_material){1.0, nu}, &system, &message));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));
     if (all_around && nu == 0.5) {
         double mean = 0.0;
@@ -210,10 +210,10 @@ TEST(incompressible_bodies_are_a_limit)
 static void expect_free(rb_bem_mesh *mesh, const char *motions)
 {
     rb_bem_system *system;
-    CHECK_STATUS(rb_bem_system_create(mesh, material, &system, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_bem_system_create(mesh, material, &system, &message), RB_EINVAL);
     assert_null(system);
-    if (!strstr(heard.text, motions))
-        fail_msg("'%s' does not say '%s'", heard.text, motions);
+    if (!strstr(message.text, motions))
+        fail_msg("'%s' does not say '%s'", message.text, motions);
 }
 
 TEST(a_body_without_support_is_refused)
@@ -252,7 +252,7 @@ TEST(a_second_body_without_support_is_singular)
     }
     give(&mesh, 0, RB_BEM_DISPLACEMENT, 0.0, 0.0);
     give(&mesh, 5, RB_BEM_DISPLACEMENT, 0.0, 0.0);
-    CHECK_SAYS(rb_bem_system_create(&mesh, material, &system, &heard), RB_SINGULAR, "singular");
+    CHECK_SAYS(rb_bem_system_create(&mesh, material, &system, &message), RB_SINGULAR, "singular");
     assert_null(system);
 }
 
@@ -267,18 +267,18 @@ TEST(bad_input_is_refused)
     double H[4 * n * n];
     give(&mesh, 0, RB_BEM_DISPLACEMENT, 0.0, 0.0);
     give(&mesh, 5, RB_BEM_DISPLACEMENT, 0.0, 0.0);
-    CHECK_SAYS(rb_bem_system_create(&mesh, (rb_bem_material){0.0, 0.3}, &system, &heard), RB_EINVAL,
-               "shear");
-    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n - 1, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "leading dimension 31: expected at least 32");
-    CHECK_OK(rb_bem_system_create(&mesh, material, &system, &heard));
-    CHECK_SAYS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_bem_system_create(&mesh, (rb_bem_material){0.0, 0.3}, &system, &message),
+               RB_EINVAL, "shear");
+    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n - 1, &message), RB_EINVAL);
+    assert_string_equal(message.text, "leading dimension 31: expected at least 32");
+    CHECK_OK(rb_bem_system_create(&mesh, material, &system, &message));
+    CHECK_SAYS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &message), RB_EINVAL,
                "no contact");
     assert_int_equal(f.n, 0);
     rb_bem_system_free(system);
     mesh.x0[3] = NAN;
-    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n, &heard), RB_EINVAL);
-    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n, &message), RB_EINVAL);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &message), RB_EINVAL);
     rb_bem_system_free(NULL);
 }
 

@@ -16,7 +16,7 @@ static double *wheel_matrix(const rb_bem_wheel *wheel, rb_bem_normals normals, i
                             const double *ends)
 {
     OWNED(rb_bem_flexibility) f;
-    CHECK_OK(rb_bem_flexibility_wheel(n, ends, wheel, normals, &f, &heard));
+    CHECK_OK(rb_bem_flexibility_wheel(n, ends, wheel, normals, &f, &message));
     double *F = matrix_of(&f);
     return F;
 }
@@ -184,14 +184,14 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
     OWNED(rb_bem_flexibility) f;
     for (int i = 0; i < n + 2; i++)
         ends[i] = 4.0 * (2.0 * i / n - 1.0);
-    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, &message));
     if (kind == 2) {
-        CHECK_OK(rb_bem_mesh_core(&cylinder, &mesh, &core, &heard));
-        CHECK_OK(rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &heard));
+        CHECK_OK(rb_bem_mesh_core(&cylinder, &mesh, &core, &message));
+        CHECK_OK(rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &message));
     } else {
-        CHECK_OK(rb_bem_system_create(&mesh, rubber, &system, &heard));
+        CHECK_OK(rb_bem_system_create(&mesh, rubber, &system, &message));
     }
-    CHECK_OK(rb_bem_condense_subtracted(system, normals, &f, &heard));
+    CHECK_OK(rb_bem_condense_subtracted(system, normals, &f, &message));
     SCRATCH double *A = matrix_of(&f), *B = wheel_matrix(&wheel, normals, n, ends);
     return apart(n, A, B);
 }
@@ -421,16 +421,16 @@ TEST(bad_wheels_are_refused)
     double ends[4] = {-0.1, 0.0, 0.1, 0.2};
     rb_bem_flexibility f;
     wheel.core.shear = 1e-90;
-    CHECK_SAYS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &heard),
+    CHECK_SAYS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &message),
                RB_SINGULAR, "singular");
     wheel = wheels[3];
     wheel.hub = wheel.inner;
-    CHECK_STATUS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &heard),
+    CHECK_STATUS(rb_bem_flexibility_wheel(2, ends, &wheel, RB_BEM_NORMALS_SURFACE, &f, &message),
                  RB_EINVAL);
     ends[3] = wheel.radius;
-    CHECK_SAYS(rb_bem_flexibility_wheel(2, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &heard),
+    CHECK_SAYS(rb_bem_flexibility_wheel(2, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &message),
                RB_EINVAL, "is wider");
-    CHECK_STATUS(rb_bem_flexibility_wheel(0, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &heard),
+    CHECK_STATUS(rb_bem_flexibility_wheel(0, ends, wheels, RB_BEM_NORMALS_SURFACE, &f, &message),
                  RB_EINVAL);
 }
 

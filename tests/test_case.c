@@ -34,8 +34,8 @@ static rb_status set_words(rb_case *c, const char *words, rb_message *why)
 static rb_case *case_of(const char *words)
 {
     rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
-    if (set_words(c, words, &heard) != RB_OK || rb_case_resolve(c, &heard) != RB_OK)
-        fail_msg("%s: %s", words, heard.text);
+    if (set_words(c, words, &message) != RB_OK || rb_case_resolve(c, &message) != RB_OK)
+        fail_msg("%s: %s", words, message.text);
     return c;
 }
 
@@ -72,13 +72,13 @@ static void compare(const char *file, const char *words)
     OWNED(rb_case_result) r;
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     snprintf(path, sizeof path, "%s/%s", examples, file);
-    rb_status s = set_words(c, words, &heard);
+    rb_status s = set_words(c, words, &message);
     if (s == RB_OK && *file)
-        s = rb_case_read(c, path, &heard);
+        s = rb_case_read(c, path, &message);
     if (s == RB_OK)
-        s = rb_case_resolve(c, &heard);
-    if (s != RB_OK || rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
-        fail_msg("%s %s: %s", file, words, heard.text);
+        s = rb_case_resolve(c, &message);
+    if (s != RB_OK || rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) != RB_OK)
+        fail_msg("%s %s: %s", file, words, message.text);
 
     run_program(file, words);
     held_json *root = NOT_NULL(json_loads(out, 0, NULL));
@@ -125,7 +125,7 @@ TEST(carter_by_names_is_on_the_fitted_mesh)
     held_case *c = case_of("similar=yes support=halfplane formulation=steady half-width=0.5 "
                            "creep-ratio=0.4 mu=0.3 radius=500");
     assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
     CHECK_ABS(r.solution.force_ratio, -0.64, 1e-4, "Carter: s (2 - s) at s = 0.4");
 }
 
@@ -163,7 +163,7 @@ TEST(a_value_survives_as_text)
         if (o[i].kind == RB_OPTION_GROUP || o[i].unset) /* has no default value */
             continue;
         const char *text = rb_option_text(&o[i], words, room);
-        CHECK_OK(rb_case_set(again, o[i].name, text, RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_set(again, o[i].name, text, RB_GIVEN_ARGUMENT, &message));
         assert_string_equal(rb_option_text(&o[i], back, room2), text);
     }
 }
@@ -171,9 +171,9 @@ TEST(a_value_survives_as_text)
 TEST(numbers_are_words_too)
 {
     held_case *c = case_of("load=500"), *by_number = case_of("");
-    CHECK_OK(rb_case_set_number(by_number, "load", 500.0, &heard));
-    CHECK_OK(rb_case_set_number(by_number, "contact-elements", 40.0, &heard));
-    CHECK_OK(rb_case_resolve(by_number, &heard));
+    CHECK_OK(rb_case_set_number(by_number, "load", 500.0, &message));
+    CHECK_OK(rb_case_set_number(by_number, "contact-elements", 40.0, &message));
+    CHECK_OK(rb_case_resolve(by_number, &message));
     assert_true(rb_case_resolved(c)->rc.load == rb_case_resolved(by_number)->rc.load);
     assert_int_equal(rb_case_resolved(by_number)->rc.contact_elements, 40);
     assert_int_equal(rb_case_given(by_number, "load"), RB_GIVEN_NUMBER);
@@ -296,37 +296,37 @@ TEST(values_are_kept_where_they_belong)
                         bare = {kinds, KINDS, &v, NULL, NULL};
     char room[64];
     const rb_option *list = kinds + 10, *other = kinds + 13, *file = kinds + 16;
-    CHECK_OK(assign(&set, "list", "3,4,5", &heard));
+    CHECK_OK(assign(&set, "list", "3,4,5", &message));
     assert_true(v.all.n == 3 && v.list == 3.0 && v.all.value[2] == 5.0);
     assert_int_equal(plain[list - kinds], 1);
     assert_int_equal(rb_option_given(&set, "list"), RB_GIVEN_ARGUMENT);
     assert_int_equal(rb_option_given(&set, "word"), 0);
     assert_int_equal(rb_option_given(&set, "kinds"), 0);
     assert_int_equal(rb_option_given(&set, "nothing"), 0);
-    CHECK_OK(assign(&set, "list", "3cm,4m", &heard));
+    CHECK_OK(assign(&set, "list", "3cm,4m", &message));
     assert_true(v.all.n == 2 && v.list == 30.0 && v.all.value[1] == 4000.0);
     assert_int_equal(plain[list - kinds], 0);
-    CHECK_STATUS(assign(&set, "list", "3cm,4", &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "it: expected a unit for each number or for none");
-    CHECK_SAYS(assign(&set, "list", "3,4 parsec", &heard), RB_EINVAL, "parsec");
+    CHECK_STATUS(assign(&set, "list", "3cm,4", &message), RB_EINVAL);
+    assert_string_equal(message.text, "it: expected a unit for each number or for none");
+    CHECK_SAYS(assign(&set, "list", "3,4 parsec", &message), RB_EINVAL, "parsec");
     assert_true(v.all.n == 2); /* what is refused changes nothing */
-    CHECK_OK(assign(&bare, "word", "2 in", &heard));
+    CHECK_OK(assign(&bare, "word", "2 in", &message));
     CHECK_REL(v.word, 50.8, 1e-15, "inches");
     assert_string_equal(rb_option_text(kinds + 1, &v, room), "");
     assert_string_equal(rb_option_text(file, &v, room), "");
     assert_null(rb_option_path(file, &v));
     assert_null(rb_option_path(kinds + 15, &v)); /* a text that names no file */
-    CHECK_OK(assign(&set, "file", "f.txt", &heard));
+    CHECK_OK(assign(&set, "file", "f.txt", &message));
     assert_string_equal(rb_option_path(file, &v), "f.txt");
-    CHECK_OK(assign(&set, "other", "g.txt", &heard));
+    CHECK_OK(assign(&set, "other", "g.txt", &message));
     assert_int_equal(v.other, 9);
     assert_string_equal(rb_option_path(other, &v), "g.txt");
     assert_string_equal(rb_option_text(other, &v, room), "g.txt");
-    CHECK_STATUS(assign(&set, "other", "", &heard), RB_EINVAL);
-    CHECK_OK(assign(&set, "other", "apple", &heard));
+    CHECK_STATUS(assign(&set, "other", "", &message), RB_EINVAL);
+    CHECK_OK(assign(&set, "other", "apple", &message));
     assert_null(rb_option_path(other, &v));
-    CHECK_STATUS(assign(&set, "text", "", &heard), RB_EINVAL);
-    CHECK_OK(assign(&set, "flag", "false", &heard));
+    CHECK_STATUS(assign(&set, "text", "", &message), RB_EINVAL);
+    CHECK_OK(assign(&set, "flag", "false", &message));
     assert_string_equal(rb_option_text(kinds + 14, &v, room), "no");
     assert_string_equal(rb_option_text(kinds, &v, room), "");
     v.choice = 99;
@@ -344,7 +344,7 @@ TEST(names_that_are_none_are_said)
     assert_null(rb_case_word("support", 99));
     assert_string_equal(rb_case_word("formulation", RB_STEADY), "steady");
     assert_int_equal(rb_case_given(c, "nothing"), 0);
-    CHECK_SAYS(rb_case_set_number(c, "lood", 3.0, &heard), RB_EINVAL, "'load'?");
+    CHECK_SAYS(rb_case_set_number(c, "lood", 3.0, &message), RB_EINVAL, "'load'?");
 }
 
 /* ---- Cases of CONTACT -------------------------------------------------------------- */
@@ -581,13 +581,13 @@ static void check_word(rb_status s, const rb_message *why, const char *part)
 TEST(wrong_words_are_refused)
 {
     held_case *c = case_of("");
-    check_word(rb_case_set(c, "lood", "3", RB_GIVEN_ARGUMENT, &heard), &heard, "'load'?");
-    check_word(rb_case_set(c, "load", "-3", RB_GIVEN_ARGUMENT, &heard), &heard,
+    check_word(rb_case_set(c, "lood", "3", RB_GIVEN_ARGUMENT, &message), &message, "'load'?");
+    check_word(rb_case_set(c, "load", "-3", RB_GIVEN_ARGUMENT, &message), &message,
                "--load: expected a number > 0, got '-3'");
-    check_word(rb_case_set(c, "body-a", "3", RB_GIVEN_ARGUMENT, &heard), &heard, "body-a");
-    check_word(rb_case_set_number(c, "load", NAN, &heard), &heard, "load: expected");
-    check_word(rb_case_set_number(c, "support", 1.0, &heard), &heard, "takes no number");
-    check_word(rb_case_set_number(c, "steps", 1.5, &heard), &heard, "whole number");
+    check_word(rb_case_set(c, "body-a", "3", RB_GIVEN_ARGUMENT, &message), &message, "body-a");
+    check_word(rb_case_set_number(c, "load", NAN, &message), &message, "load: expected");
+    check_word(rb_case_set_number(c, "support", 1.0, &message), &message, "takes no number");
+    check_word(rb_case_set_number(c, "steps", 1.5, &message), &message, "whole number");
     CHECK_STATUS(rb_case_set(c, "load", "x", 7, NULL), RB_EFORMAT);
     assert_int_equal(rb_case_given(c, "load"), 0);
 }
@@ -619,8 +619,8 @@ TEST(contradictions_are_refused)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         held_case *c = rb_case_create(RB_CASE_SINGLE);
-        CHECK_OK(set_words(c, bad[k].words, &heard));
-        check_word(rb_case_resolve(c, &heard), &heard, bad[k].part);
+        CHECK_OK(set_words(c, bad[k].words, &message));
+        check_word(rb_case_resolve(c, &message), &message, bad[k].part);
         CHECK_STATUS(rb_case_resolve(c, NULL), RB_EINVAL);
     }
 }
@@ -642,16 +642,16 @@ TEST(a_purpose_refuses_what_means_nothing_to_it)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         held_case *c = rb_case_create(bad[k].purpose);
-        CHECK_OK(set_words(c, bad[k].words, &heard));
-        check_word(rb_case_resolve(c, &heard), &heard, bad[k].part);
+        CHECK_OK(set_words(c, bad[k].words, &message));
+        check_word(rb_case_resolve(c, &message), &message, bad[k].part);
     }
 }
 
 TEST(a_curve_takes_several_mu)
 {
     held_case *c = rb_case_create(RB_CASE_CURVE);
-    CHECK_OK(set_words(c, "mu=0.1,0.2 load=500", &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(set_words(c, "mu=0.1,0.2 load=500", &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     assert_int_equal(rb_case_resolved(c)->mus.n, 2);
     assert_int_equal(rb_case_resolved(c)->rc.formulation, RB_STEADY);
 }
@@ -865,9 +865,10 @@ TEST(layers_are_those_that_a_file_holds)
     write_file("other.txt", "thickness young poisson\n0.5 900 0.3\n1 501 0.3\n");
     for (int k = 0; k < 2; k++) {
         held_case *c = rb_case_create(RB_CASE_SINGLE);
-        CHECK_OK(set_words(c, "support=halfplane load=5 mu=0 layers=a.txt", &heard));
-        CHECK_OK(rb_case_set(c, "layers-b", k ? "other.txt" : "b.txt", RB_GIVEN_ARGUMENT, &heard));
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(set_words(c, "support=halfplane load=5 mu=0 layers=a.txt", &message));
+        CHECK_OK(
+            rb_case_set(c, "layers-b", k ? "other.txt" : "b.txt", RB_GIVEN_ARGUMENT, &message));
+        CHECK_OK(rb_case_resolve(c, &message));
         const rb_rolling_case *rc = &rb_case_resolved(c)->rc;
         assert_true(rc->a.stack != NULL);
         assert_int_equal(rc->a.stack == rc->b.stack, k == 0);
@@ -888,9 +889,9 @@ TEST(a_column_excludes_its_option)
                  columns[k][1]);
         snprintf(wanted, sizeof wanted, "--%s: the history has a column %s", columns[k][1],
                  columns[k][0]);
-        CHECK_OK(set_words(c, words, &heard));
-        CHECK_STATUS(rb_case_resolve(c, &heard), RB_EINVAL);
-        assert_string_equal(heard.text, wanted);
+        CHECK_OK(set_words(c, words, &message));
+        CHECK_STATUS(rb_case_resolve(c, &message), RB_EINVAL);
+        assert_string_equal(message.text, wanted);
     }
 }
 
@@ -904,8 +905,8 @@ TEST(all_of_a_result_is_converted)
     for (int k = 0; k < 2; k++) {
         held_case *c = case_of(words[k]);
         OWNED(rb_case_result) r;
-        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
-            fail_msg("%s: %s", words[k], heard.text);
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) != RB_OK)
+            fail_msg("%s: %s", words[k], message.text);
         const double load = r.solution.normal_load, bar = r.errors.scalar.approach;
         const double step = k ? r.history.step : NAN, p = r.solution.p[4];
         rb_case_result_convert(&r, RB_UNITS_SI);
@@ -927,13 +928,13 @@ TEST(own_options_are_read_beside_the_case)
     const rb_option_set set = {options, 2, &own, NULL, NULL};
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
-    CHECK_OK(rb_case_read_with(c, "own.ini", 1, &set, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_read_with(c, "own.ini", 1, &set, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     CHECK_ABS(own, 2.0, 0.0, "own");
     CHECK_ABS(rb_case_resolved(c)->rc.mu, 0.2, 0.0, "mu");
-    CHECK_STATUS(rb_option_assign(&set, 0, 1, "own", "1", &heard), RB_EINVAL);
+    CHECK_STATUS(rb_option_assign(&set, 0, 1, "own", "1", &message), RB_EINVAL);
     write_file("own.ini", "[own]\nmu = 0.2\n");
-    CHECK_SAYS(rb_case_read_with(c, "own.ini", 1, &set, &heard), RB_EFORMAT,
+    CHECK_SAYS(rb_case_read_with(c, "own.ini", 1, &set, &message), RB_EFORMAT,
                "own.ini:2: key 'mu' belongs to section");
 }
 
@@ -941,9 +942,9 @@ TEST(an_argument_wins_over_the_file)
 {
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("case.ini", "load = 4\nmu = 0.1\nyoung-b = 1000\n");
-    CHECK_OK(set_words(c, "approach=0.01 mu=0.2 similar=yes", &heard));
-    CHECK_OK(rb_case_read(c, "case.ini", &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(set_words(c, "approach=0.01 mu=0.2 similar=yes", &message));
+    CHECK_OK(rb_case_read(c, "case.ini", &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     const rb_resolved_case *s = rb_case_resolved(c);
     assert_true(isnan(s->rc.load) && s->rc.approach == 0.01 && s->rc.mu == 0.2);
     assert_true(s->rc.b.young == s->rc.a.young);
@@ -958,12 +959,12 @@ TEST(a_copy_is_settled_from_its_words)
     held_case *base = case_of("formulation=steady similar=yes support=halfplane load=500");
     held_case *c = rb_case_copy(base);
     assert_int_equal(rb_case_resolved(base)->rc.contact_elements, 100);
-    CHECK_OK(rb_case_set_number(c, "zone", 4.0, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_set_number(c, "zone", 4.0, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_UNIFORM);
     assert_int_equal(rb_case_resolved(c)->rc.contact_elements, 60);
-    CHECK_OK(rb_case_set(c, "zone", "auto", RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_set(c, "zone", "auto", RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
     assert_true(rb_case_resolved(base)->rc.zone == 0.0);
 }
@@ -978,15 +979,15 @@ TEST(a_copy_borrows_the_files)
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
     write_file("other.txt", "-5 0.5\n-1 0.1\n0 0\n5 0.5\n");
     rb_case *base = case_of("gap=gap.txt load=500"), *c = rb_case_copy(base);
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_resolve(c, &message));
     assert_ptr_equal(rb_case_resolved(c)->rc.profile, rb_case_resolved(base)->rc.profile);
-    CHECK_OK(rb_case_set_number(c, "gap-smoothing", 0.5, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_set_number(c, "gap-smoothing", 0.5, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     assert_ptr_not_equal(rb_case_resolved(c)->rc.profile, rb_case_resolved(base)->rc.profile);
     CHECK_ABS(gap_at(c, 5.0), 0.25, 1e-12, "a parabola smoothed");
-    CHECK_OK(rb_case_set_number(c, "gap-smoothing", 0.0, &heard));
-    CHECK_OK(rb_case_set(c, "gap", "other.txt", RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+    CHECK_OK(rb_case_set_number(c, "gap-smoothing", 0.0, &message));
+    CHECK_OK(rb_case_set(c, "gap", "other.txt", RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     CHECK_ABS(gap_at(c, 5.0), 0.5, 1e-14, "the other file");
     rb_case_free(c);
     CHECK_ABS(gap_at(base, 5.0), 0.25, 1e-14, "its own file");
@@ -1007,7 +1008,7 @@ TEST(tables_are_where_the_case_wants_them)
         assert_true(rc->worn.n == 3 && rc->worn.y[1] == 0.01);
         assert_true(rc->friction.table.n == 2 && rc->friction.table.y[1] == 0.3);
         assert_int_equal(rc->mesh, RB_MESH_UNIFORM); /* not fitted to what is worn */
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_resolve(c, &message));
     }
     rb_case_free(c);
     c = case_of("support=halfplane formulation=transient creep-ratio=0.1 "
@@ -1019,7 +1020,7 @@ TEST(tables_are_where_the_case_wants_them)
         CHECK_REL(s->program.load[1], 200.0, 1e-14, "its own unit");
         assert_true(rb_case_is_replaced(c, rb_case_option("load")));
         assert_false(rb_case_is_replaced(c, rb_case_option("mu")));
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_resolve(c, &message));
     }
     rb_case_free(c);
     c = case_of("load=500");
@@ -1100,8 +1101,8 @@ TEST(an_option_may_say_what_all_rows_say)
         char line[200];
         rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         snprintf(line, sizeof line, words, rows[k].load);
-        CHECK_OK(set_words(c, line, &heard));
-        CHECK_STATUS(rb_case_resolve(c, &heard), rows[k].refused ? RB_EINVAL : RB_OK);
+        CHECK_OK(set_words(c, line, &message));
+        CHECK_STATUS(rb_case_resolve(c, &message), rows[k].refused ? RB_EINVAL : RB_OK);
         rb_case_free(c);
     }
 }

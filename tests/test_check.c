@@ -77,9 +77,9 @@ static rb_case *case_of(const char *given)
     for (name = strtok(text, " "); name; name = strtok(NULL, " ")) {
         value = strtok(NULL, " ");
         assert_non_null(value);
-        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &heard), RB_OK);
+        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &message), RB_OK);
     }
-    CHECK_STATUS(rb_case_resolve(words, &heard), RB_OK);
+    CHECK_STATUS(rb_case_resolve(words, &message), RB_OK);
     return words;
 }
 
@@ -219,7 +219,7 @@ static void expect_found(const json_t *root, const char *given, const char *key,
 static void expect_violations(const json_t *root, int wanted)
 {
     rb_certificate_outcome found = {.prove = 0};
-    CHECK_STATUS(certify(root, &found, &heard), RB_OK);
+    CHECK_STATUS(certify(root, &found, &message), RB_OK);
     assert_int_equal(found.violations, wanted);
 }
 
@@ -307,11 +307,11 @@ TEST(inputs_belong_to_the_result)
         json_object_set_new(all, inputs[k].key, json_real(x));
         rb_case *words = case_of(cases[inputs[k].which]);
         snprintf(value, sizeof value, "%.17g", x);
-        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &heard), RB_OK);
-        CHECK_STATUS(rb_case_resolve(words, &heard), RB_OK);
+        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &message), RB_OK);
+        CHECK_STATUS(rb_case_resolve(words, &message), RB_OK);
         json_object_set_new(root, "input_hash", rb_report_json_input_hash(words));
         rb_case_free(words);
-        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
+        CHECK_STATUS(certify(root, &found, &message), RB_OK);
         assert_true(found.violations > 0);
     }
 }
@@ -335,8 +335,8 @@ TEST(searched_loads_are_found_again)
     static const char *const searched[] = {
         "--support halfplane --similar --max-pressure 50 --gap um.tsv",
         "--support halfplane --similar --max-pressure 150 --gap um.tsv",
-        "--support halfplane --similar --max-pressure 200 --gap um.tsv --mu 0.1 "
-        "--formulation steady --creep-ratio 0.4",
+        ("--support halfplane --similar --max-pressure 200 --gap um.tsv --mu 0.1 "
+         "--formulation steady --creep-ratio 0.4"),
         "--support hub --max-pressure 150 --mu 0 --contact-elements 40",
         "--support halfplane --max-pressure 150 --mu 3 --mesh uniform"};
     assert_int_equal(shell("awk 'BEGIN {print \"x [mm]\\tgap [um]\"; for (x = -3; x < 3.01; x += "
@@ -444,7 +444,7 @@ TEST(all_solutions_are_judged)
             json_array_set(list, 2, json_array_get(list, 1));
         if (change == 3)
             json_array_remove(list, 0), json_array_remove(list, 0);
-        CHECK_STATUS(rb_certificate_check(lines, "r", wrong, words, &found, &heard), RB_OK);
+        CHECK_STATUS(rb_certificate_check(lines, "r", wrong, words, &found, &message), RB_OK);
         rewind(lines);
         if (change == 0)
             assert_int_equal(found.violations, 0);
@@ -865,8 +865,8 @@ TEST(numbers_that_b_has_by_itself_are_its_own)
     static const char *const of_b[] = {
         "layer-thickness=1 layer-thickness-b=1",
         "layer-thickness=1 base-young=3e5 base-poisson=0.3 base-young-b=3e5 base-poisson-b=0.3",
-        "speed=1000 relaxation-time=1e-3 relaxation-ratio=1 relaxation-time-b=1e-3 "
-        "relaxation-ratio-b=1",
+        ("speed=1000 relaxation-time=1e-3 relaxation-ratio=1 relaxation-time-b=1e-3 "
+         "relaxation-ratio-b=1"),
         "speed=1000 conductivity=50 heat-capacity=3.6 conductivity-b=50"};
     for (size_t k = 0; k < sizeof of_b / sizeof *of_b; k++) {
         const int code =

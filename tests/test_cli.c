@@ -635,7 +635,7 @@ TEST(transient_rolls_step_by_step)
         json_string_value(json_object_get(json_object_get(root, "summary"), "formulation")),
         "transient");
     OWNED(rb_io_table) t;
-    CHECK_OK(rb_io_table_read("steps.tsv", &t, &heard));
+    CHECK_OK(rb_io_table_read("steps.tsv", &t, &message));
     assert_int_equal(t.columns, 19);
     assert_int_equal(t.rows, steps);
     CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"), 1e-9,
@@ -881,9 +881,9 @@ TEST(error_bars_hold_the_truth)
 static double *read_matrix(const char *name, int rows, int cols)
 {
     rb_io_matrix m;
-    const rb_status s = rb_io_matrix_market_read(name, &m, &heard);
+    const rb_status s = rb_io_matrix_market_read(name, &m, &message);
     if (s != RB_OK)
-        fail_msg("%s", heard.text);
+        fail_msg("%s", message.text);
     assert_int_equal(m.rows, rows);
     assert_int_equal(m.cols, cols);
     assert_int_equal(rb_io_matrix_to_dense(&m), RB_OK);
@@ -1141,12 +1141,12 @@ TEST(history_tables_are_histories)
                                         "%s --history a.tsv --history-table b.tsv",
                                   runs[k].first, runs[k].again),
                          0);
-        CHECK_OK(rb_io_table_read("a.tsv", &a, &heard));
-        CHECK_OK(rb_io_table_read("b.tsv", &b, &heard));
+        CHECK_OK(rb_io_table_read("a.tsv", &a, &message));
+        CHECK_OK(rb_io_table_read("b.tsv", &b, &message));
         assert_int_equal(a.rows, b.rows);
-        CHECK_OK(rb_io_table_assign("a", &a, 2, of_Q, RB_UNITS_MM, &q[0], &heard));
+        CHECK_OK(rb_io_table_assign("a", &a, 2, of_Q, RB_UNITS_MM, &q[0], &message));
         const double *first = q[0];
-        CHECK_OK(rb_io_table_assign("b", &b, 2, of_Q, RB_UNITS_MM, &q[0], &heard));
+        CHECK_OK(rb_io_table_assign("b", &b, 2, of_Q, RB_UNITS_MM, &q[0], &message));
         for (int i = 0; i < a.rows; i++)
             CHECK_ABS(q[0][i], first[i], 1e-8 * fabs(first[a.rows - 1]), "%s, Q of row %d",
                       runs[k].first, i + 1);

@@ -493,7 +493,7 @@ TEST(every_number_has_its_name)
                           " 1 2 3 4 5\n 6 7\n 3\n 5 1 1 1 0.5 0.25\n"
                           " 3 MODULE\n 200100\n 100000\n 10\n 1 2 3 4 5\n 1 0.6 0. 0.\n"
                           " 4 MODULE\n 0 MODULE\n 3 MODULE\n");
-    CHECK_OK(rb_io_contact_read("all.inp", &n, &c, &heard));
+    CHECK_OK(rb_io_contact_read("all.inp", &n, &c, &message));
     assert_int_equal(n, 5);
     assert_true(c[0].line == 2 && c[0].module == 3 && c[4].module == 4);
     const rb_io_contact_digits *d = &c[0].digit;
@@ -601,7 +601,7 @@ TEST(short_lines_are_named)
         rb_io_contact_case *c;
         int n = 7;
         write_file("short.inp", all[k].text);
-        CHECK_SAYS(rb_io_contact_read("short.inp", &n, &c, &heard), RB_EFORMAT, all[k].said);
+        CHECK_SAYS(rb_io_contact_read("short.inp", &n, &c, &message), RB_EFORMAT, all[k].said);
         assert_true(n == 0 && !c);
     }
 }

@@ -17,8 +17,8 @@ static outcome check_solvers(const kind *of)
     CHECK_OK(rb_contact_state_alloc(of->n, &s));
     for (int k = 0; k < 6; k++) {
         const rb_contact_options options = options_of(solvers[k % 3]);
-        const rb_status status = rb_contact_solve(&p, &options, k >= 3, &s, &heard);
-        check_outcome(&p, &s, status, &heard, &o);
+        const rb_status status = rb_contact_solve(&p, &options, k >= 3, &s, &message);
+        check_outcome(&p, &s, status, &message, &o);
     }
     return o;
 }
@@ -311,8 +311,8 @@ TEST(products_give_what_matrices_do)
         assert_null(rb_contact_operator_matrix(p.op).F);
         CHECK_OK(rb_contact_state_alloc(of.n, &s));
         for (int warm = 0; warm < 2; warm++) {
-            const rb_status status = rb_contact_solve(&p, &options, warm, &s, &heard);
-            check_outcome(&with, &s, status, &heard, &o);
+            const rb_status status = rb_contact_solve(&p, &options, warm, &s, &message);
+            check_outcome(&with, &s, status, &message, &o);
         }
         assert_int_equal(o.failed, 0);
         refused += !layer && o.refused > 0;
@@ -690,9 +690,9 @@ TEST(the_residual_judges_cone_solvers)
         options.cone_solver = (rb_contact_cone_solver){"it", hand_back};
         says = all[k % 6].says;
         noise = all[k % 6].noise;
-        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &heard);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &message);
         if (status != all[k % 6].wanted)
-            fail_msg("case %zu: %d, %s", k, status, heard.text);
+            fail_msg("case %zu: %d, %s", k, status, message.text);
         if (all[k % 6].wanted >= 0)
             assert_int_equal(s.solver, RB_SOLVER_CONE);
         if (all[k % 6].wanted == RB_OK) {
@@ -721,11 +721,11 @@ TEST(products_have_no_lcp)
     random_problem(&of, &p);
     use_products(&p, &by);
     CHECK_OK(rb_contact_state_alloc(of.n, &s));
-    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_PIVOTED, 0, 1.0, &lcp, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "4 contact elements are too many for an LCP");
-    CHECK_STATUS(rb_contact_cone_create(&p, 0.0, 0.0, &cone, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "4 elements are too many for a dense W");
-    CHECK_OK(rb_contact_solve(&p, &options, 0, &s, &heard));
+    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_PIVOTED, 0, 1.0, &lcp, &message), RB_EINVAL);
+    assert_string_equal(message.text, "4 contact elements are too many for an LCP");
+    CHECK_STATUS(rb_contact_cone_create(&p, 0.0, 0.0, &cone, &message), RB_EINVAL);
+    assert_string_equal(message.text, "4 elements are too many for a dense W");
+    CHECK_OK(rb_contact_solve(&p, &options, 0, &s, &message));
 }
 
 /* Kwak's form has the inverse of A F_TT. */
@@ -741,7 +741,7 @@ TEST(kwaks_form_needs_an_inverse)
     S[4] = S[5] = S[6] = S[7] = 1.0;
     CHECK_OK(rb_contact_operator_dense(n, F, n, S, &op));
     CHECK_OK(rb_contact_problem_alloc(op, &p));
-    CHECK_SAYS(rb_contact_lcp_create(&p, RB_LCP_KWAK, 0, 1.0, &lcp, &heard), RB_SINGULAR,
+    CHECK_SAYS(rb_contact_lcp_create(&p, RB_LCP_KWAK, 0, 1.0, &lcp, &message), RB_SINGULAR,
                "LCP of 2 contact elements: ");
     assert_null(lcp.M);
 }
@@ -877,7 +877,7 @@ TEST(surfaces_apart_carry_nothing)
         random_problem(&of, &p);
         p.delta = -10.0 * GAP;
         CHECK_OK(rb_contact_state_alloc(of.n, &s));
-        CHECK_SAYS(rb_contact_solve(&p, &options, 0, &s, &heard), RB_EINVAL, "carries at most");
+        CHECK_SAYS(rb_contact_solve(&p, &options, 0, &s, &message), RB_EINVAL, "carries at most");
     }
 }
 

@@ -4,7 +4,7 @@
 #include "check.h"
 #include "rolling/case/case.h"
 
-static rb_status solve(const char *const *words, rb_case_result *r, rb_message *why)
+static rb_status solve_core(const char *const *words, rb_case_result *r, rb_message *why)
 {
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     rb_status s = RB_OK;
@@ -26,10 +26,10 @@ TEST(the_core_solves_a_case)
     static const char *const wheel[] = {"contact-elements", "12", NULL};
     rb_case_result r = {0};
 
-    CHECK_OK(solve(carter, &r, &heard));
+    CHECK_OK(solve_core(carter, &r, &message));
     CHECK_ABS(r.solution.force_ratio, -0.75, 2e-3, "Carter: s (2 - s)");
     rb_case_result_free(&r);
-    CHECK_OK(solve(wheel, &r, &heard));
+    CHECK_OK(solve_core(wheel, &r, &message));
     CHECK_MAX(r.solution.residual, 1e-10, "residual");
     rb_case_result_free(&r);
 }
@@ -39,7 +39,7 @@ TEST(cone_solvers_are_not_at_hand)
     static const char *const cone[] = {"solver", "nsn-ac", NULL};
     OWNED(rb_case_result) r = {0};
 
-    CHECK_SAYS(solve(cone, &r, &heard), RB_EINVAL, "nsn-ac");
+    CHECK_SAYS(solve_core(cone, &r, &message), RB_EINVAL, "nsn-ac");
 }
 
 RUN_TESTS(NULL, NULL)

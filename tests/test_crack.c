@@ -20,7 +20,7 @@ enum { STRIPS = 100, STEPS = 121 };
 static rb_crack *create(rb_crack_shape shape)
 {
     rb_crack *c = NULL;
-    CHECK_OK(rb_crack_create(&shape, &c, &heard));
+    CHECK_OK(rb_crack_create(&shape, &c, &message));
     return c;
 }
 
@@ -663,10 +663,10 @@ TEST(directions)
 static void refuses(rb_crack_shape shape, const char *word)
 {
     rb_crack *c = NULL;
-    CHECK_STATUS(rb_crack_create(&shape, &c, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_crack_create(&shape, &c, &message), RB_EINVAL);
     assert_null(c);
-    if (!strstr(heard.text, word))
-        fail_msg("'%s' does not say '%s'", heard.text, word);
+    if (!strstr(message.text, word))
+        fail_msg("'%s' does not say '%s'", message.text, word);
 }
 
 TEST(bad_input)
@@ -695,8 +695,8 @@ TEST(bad_input)
     held_crack *c = create(closed_crack(10, 0.1));
     const rb_crack_passage none = {.steps = 0, .x = &x, .passes = 1},
                            wet = {.steps = 1, .x = &x, .passes = 1, .fluid = RB_CRACK_TRAPPED};
-    CHECK_STATUS(rb_crack_pass(c, &none, &h, &heard), RB_EINVAL);
-    CHECK_SAYS(rb_crack_pass(c, &wet, &h, &heard), RB_EINVAL, "mouth");
+    CHECK_STATUS(rb_crack_pass(c, &none, &h, &message), RB_EINVAL);
+    CHECK_SAYS(rb_crack_pass(c, &wet, &h, &message), RB_EINVAL, "mouth");
     /* flat elements are all pressed */
     const double ends[] = {-0.2, -0.1, 0.0, 0.1, 0.2}, gap[4] = {0.0}, p[4] = {1, 1, 1, 1};
     const double F[16] = {[0] = 0.1, [5] = 0.1, [10] = 0.1, [15] = 0.1};
@@ -704,7 +704,7 @@ TEST(bad_input)
     const rb_crack_wheel wheel = {4, ends, F, gap, 4, 0.4, 0.1};
     const rb_crack_passage pressed = {
         .steps = 1, .x = &x, .loads = 1, .load = &load, .passes = 1, .wheel = &wheel};
-    CHECK_SAYS(rb_crack_pass(c, &pressed, &h, &heard), RB_ZONE,
+    CHECK_SAYS(rb_crack_pass(c, &pressed, &h, &message), RB_ZONE,
                "crack: step 1, contact at x = 0: the contact fills its elements");
 }
 
@@ -725,9 +725,9 @@ TEST(no_memory)
         rb_crack *c = NULL;
         OWNED(rb_crack_history) h = {0};
         alloc_fail_after(k);
-        rb_status s = rb_crack_create(&shape, &c, &heard);
+        rb_status s = rb_crack_create(&shape, &c, &message);
         if (s == RB_OK)
-            s = rb_crack_pass(c, &passage, &h, &heard);
+            s = rb_crack_pass(c, &passage, &h, &message);
         alloc_fail_after(-1);
         done = s == RB_OK;
         if (!done)
@@ -754,7 +754,7 @@ TEST(a_crack_can_be_stopped_while_it_is_made)
         rb_crack *c = NULL;
         int left = times;
         const rb_interrupt before = rb_interrupt_by((rb_interrupt){is_over, &left});
-        const rb_status s = rb_crack_create(&shape, &c, &heard);
+        const rb_status s = rb_crack_create(&shape, &c, &message);
         rb_interrupt_by(before);
         done = s == RB_OK;
         if (!done) {

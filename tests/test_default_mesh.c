@@ -16,8 +16,8 @@ static rb_rolling_solution solved(const words *w, int elements)
 {
     OWNED(rb_case_result) r;
     held_case *c = case_of(RB_CASE_SINGLE, w, "contact-elements", elements);
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
-        fail_msg("%s %s, %d elements: %s", w->word[1], w->word[2], elements, heard.text);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) != RB_OK)
+        fail_msg("%s %s, %d elements: %s", w->word[1], w->word[2], elements, message.text);
     return rb_rolling_scalars_of(&r.solution);
 }
 
@@ -206,8 +206,8 @@ static rb_case *solve_words(const char *const part[], rb_case_result *r)
     for (int k = 0; part[k]; k++)
         w.word[k] = part[k];
     rb_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &heard) != RB_OK)
-        fail_msg("%s: %s", part[0], heard.text);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &message) != RB_OK)
+        fail_msg("%s: %s", part[0], message.text);
     return c;
 }
 

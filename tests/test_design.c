@@ -10,8 +10,8 @@ static rb_case *case_of(const char *const *word)
 {
     rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
     for (int k = 0; word[k]; k += 2)
-        CHECK_OK(rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
     return c;
 }
 
@@ -37,22 +37,22 @@ TEST(contacts_of_hertz)
 {
     OWNED(rb_case_result) r;
     held_case *c = case_of(hertz);
-    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard), RB_OK);
+    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message), RB_OK);
     const double p0 = r.solution.max_pressure, a = r.solution.half_width;
 
     OWNED(rb_design) bound = {.n = 0};
-    CHECK_OK(design(c, "max_pressure", "radius=20:200", NULL, &bound, &heard));
+    CHECK_OK(design(c, "max_pressure", "radius=20:200", NULL, &bound, &message));
     CHECK_REL(bound.variable[0].value, 200.0, 1e-6, "the bound holds it");
     CHECK_REL(bound.value, p0 * sqrt(50.0 / 200.0), 1e-6, "p0 by R");
 
     OWNED(rb_design) wide = {.n = 0};
-    CHECK_OK(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &heard));
+    CHECK_OK(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &message));
     CHECK_REL(wide.variable[0].value, 50.0 * (1.2 / a) * (1.2 / a), 1e-5, "a by R");
     CHECK_REL(wide.constraint[0].value, 1.2, 2e-6, "active");
 
     OWNED(rb_design) heavy = {.n = 0, .largest = 1};
     CHECK_OK(design(c, "normal_load", "radius=20:80,load=100:9000",
-                    "max_pressure<=600,half_width>=0.1", &heavy, &heard));
+                    "max_pressure<=600,half_width>=0.1", &heavy, &message));
     CHECK_REL(heavy.value, 500.0 * 600.0 * 600.0 / (p0 * p0) * 80.0 / 50.0, 1e-5, "P");
     assert_true(heavy.constraint[1].value > 0.1);
 }
@@ -62,13 +62,13 @@ TEST(an_input_is_the_objective)
 {
     OWNED(rb_case_result) r;
     held_case *c = case_of(hertz);
-    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard), RB_OK);
+    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message), RB_OK);
     const double p0 = r.solution.max_pressure;
     char most[60];
     snprintf(most, sizeof most, "max_pressure<=%.17g", 1.25 * p0);
 
     OWNED(rb_design) least = {.n = 0};
-    CHECK_OK(design(c, "radius", "radius=20:200", most, &least, &heard));
+    CHECK_OK(design(c, "radius", "radius=20:200", most, &least, &message));
     CHECK_REL(least.value, 50.0 / (1.25 * 1.25), 1e-5, "R by p0");
     CHECK_REL(least.variable[0].value, least.value, 1e-15, "the input itself");
     CHECK_REL(least.start, 50.0, 1e-15, "where it began");
@@ -76,7 +76,7 @@ TEST(an_input_is_the_objective)
     assert_string_equal(rb_design_unit(&least), "mm");
 
     OWNED(rb_design) heavy = {.n = 0, .largest = 1};
-    CHECK_OK(design(c, "load", "radius=20:80,load=100:9000", most, &heavy, &heard));
+    CHECK_OK(design(c, "load", "radius=20:80,load=100:9000", most, &heavy, &message));
     CHECK_REL(heavy.value, 500.0 * 1.25 * 1.25 * 80.0 / 50.0, 1e-5, "P by p0 and R");
 
     OWNED(rb_design) other = {.n = 0};
@@ -93,9 +93,9 @@ TEST(search_stays_where_solutions_are)
                                                  "500", "mesh", "uniform", "zone", "1",
                                                  "contact-elements", "40", NULL});
     OWNED(rb_design) d = {.n = 0, .largest = 1};
-    CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &heard), RB_MAXITER);
+    CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &message), RB_MAXITER);
     assert_true(d.variable[0].value > 600.0 && d.variable[0].value < 800.0);
-    assert_non_null(strstr(heard.text, "zone: the contact is not within"));
+    assert_non_null(strstr(message.text, "zone: the contact is not within"));
 }
 
 /* The values of a table of the gap: pressure that is the same all over the span. */
@@ -115,7 +115,7 @@ TEST(uniform_pressure)
     held_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
                                                  "5000", "mu", "0", "gap", path, "mesh", "uniform",
                                                  "zone", "6", "contact-elements", "48", NULL});
-    CHECK_OK(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &heard));
+    CHECK_OK(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &message));
     print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start, d.evaluations);
     assert_int_equal(d.n, 65);
     assert_true(d.start > 0.5);

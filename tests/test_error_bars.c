@@ -622,7 +622,7 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
     held_case *c = NOT_NULL(case_of(line));
 
     CHECK_STATUS(
-        rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &heard),
+        rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &message),
         wanted);
     return s;
 }
@@ -735,10 +735,11 @@ TEST(an_accuracy_out_of_reach_is_said_to_be)
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     int elements = 0;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &heard), RB_INACCURATE);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &message),
+                 RB_INACCURATE);
     assert_int_equal(elements, 40);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
-    assert_non_null(strstr(heard.text, "not reached"));
+    assert_non_null(strstr(message.text, "not reached"));
 }
 
 /* A coarser run that fails takes nothing from the case that was solved: half the elements
@@ -750,11 +751,11 @@ TEST(a_failed_coarser_run_leaves_the_solution)
     rb_rolling_errors e;
     set(&rc, "support halfplane poisson 0.5 half-width 0.1 contact-elements 40");
     rc.zone = 1.05 * rc.half_width;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &heard), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &message), RB_ZONE);
     CHECK_OK(s.status);
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
     assert_true(isnan(e.scalar.max_pressure));
-    assert_non_null(strstr(heard.text, "error bars: 20 contact elements: "));
+    assert_non_null(strstr(message.text, "error bars: 20 contact elements: "));
 }
 
 int main(int argc, char **argv)

@@ -73,13 +73,13 @@ static void bars_of_a_solution(rb_bem_support support)
     rb_rolling_case rc = plain_case(support);
     rb_rolling_solution own, run[3];
     rb_rolling_errors errors;
-    CHECK_OK(rb_rolling_solve_with_errors(&rc, &own, &errors, &heard));
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &own, &errors, &message));
     assert_true(isnan(errors.stress.max_shear.value) && isnan(errors.stress.tension.y));
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_OK(rb_rolling_solve(&coarser, &run[k], &heard));
+        CHECK_OK(rb_rolling_solve(&coarser, &run[k], &message));
     }
-    int seen = 0;
+    int counted = 0;
     for (int j = 0; j < rb_rolling_solution_scalars.n; j++) {
         const rb_rolling_result *row = &rb_rolling_solution_scalars.row[j];
         for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -92,10 +92,10 @@ static void bars_of_a_solution(rb_bem_support support)
                 row->name, rb_rolling_number(row, &errors.scalar),
                 wanted_bar(contact, support != RB_BEM_HALFPLANE, rb_rolling_number(row, &run[2])),
                 fabs(contact[2]));
-            seen++;
+            counted++;
         }
     }
-    assert_int_equal(seen, sizeof names / sizeof names[0]);
+    assert_int_equal(counted, sizeof names / sizeof names[0]);
     check_rounding("normal_load", errors.scalar.normal_load, own.normal_load);
     if (support == RB_BEM_HALFPLANE) {
         double longest = 0.0;
@@ -126,10 +126,10 @@ TEST(stresses_have_bars_where_they_are_asked_for)
     OWNED(rb_rolling_solution) own, again;
     OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     OWNED(rb_rolling_errors) errors, alone;
-    CHECK_OK(rb_rolling_solve_model(&rc, &model, &own, &heard));
-    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard));
-    CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, NULL, &errors, &heard));
-    CHECK_OK(rb_rolling_solve_with_errors(&rc, &again, &alone, &heard));
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &own, &message));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &message));
+    CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, NULL, &errors, &message));
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &again, &alone, &message));
     assert_true(errors.scalar.max_pressure == alone.scalar.max_pressure &&
                 errors.scalar.force_ratio == alone.scalar.force_ratio);
     assert_true(isnan(alone.stress.max_shear.value));
@@ -145,10 +145,10 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS, RB_UNITS_MM};
     rb_rolling_curve own, errors, run[2];
-    CHECK_OK(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &heard));
+    CHECK_OK(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &message));
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
-        CHECK_OK(rb_rolling_curve_solve(&coarser, &range, &run[k], &heard));
+        CHECK_OK(rb_rolling_curve_solve(&coarser, &range, &run[k], &message));
     }
     for (int i = 0; i < POINTS; i++) {
         const double Q[] = {run[0].tangential_load[i], run[1].tangential_load[i],
@@ -219,12 +219,12 @@ static void bars_of_a_history(double distance, int force_is_given)
     }
     rb_rolling_model model, others[2];
     rb_rolling_history own, run[2];
-    CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &heard));
+    CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &message));
     for (int k = 0; k < 2; k++) {
         rb_rolling_case coarser = coarser_case(&rc, k);
         if (own.substeps[STEPS] > 1)
             coarser.steps = STEPS;
-        CHECK_OK(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &heard));
+        CHECK_OK(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &message));
     }
     double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0}, power[STEPS + 1] = {0.0};
     assert_int_equal(own.n, STEPS + 1);

@@ -206,8 +206,8 @@ TEST(test_refinement)
 {
     static const char *const cases[] = {
         "--support halfplane --formulation steady --load 700 --creep-ratio 0.4",
-        "--support halfplane --formulation steady --load 700 --young-b 2e5 --mesh uniform "
-        "--creep-ratio 0.4",
+        ("--support halfplane --formulation steady --load 700 --young-b 2e5 --mesh uniform "
+         "--creep-ratio 0.4"),
         "--support hub --formulation steady --load 700 --similar --creep-ratio -0.4",
         "--support halfplane --formulation static --load 700 --shift 1e-3 --similar"};
     for (int k = 0; k < 4; k++)
@@ -337,11 +337,11 @@ TEST(test_library)
         char line[300];
         OWNED(rb_rolling_solution) s;
         held_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
-        CHECK_OK(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &message));
         for (int j = 0; j < 5; j++)
-            CHECK_OK(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &heard));
-        CHECK_OK(rb_case_resolve(c, &heard));
-        CHECK_OK(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &heard));
+            CHECK_OK(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &message));
+        CHECK_OK(rb_case_resolve(c, &message));
+        CHECK_OK(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &message));
         snprintf(line, sizeof line,
                  "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "
                  "--contact-elements 40",

@@ -442,9 +442,9 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
         const int status = fault_run(arguments, "out", "err", kind, 0, &n);
         assess(&jobs[i], name, 0, status, 0, "");
         const int step = stride(n - before, samples);
-        for (int k = before + 1 + i % step, seen; k <= n; k += step, tried++) {
+        for (int k = before + 1 + i % step, reached; k <= n; k += step, tried++) {
             prepare(&jobs[i]);
-            assess(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &seen), 73,
+            assess(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &reached), 73,
                    "rollbem: ");
         }
     }

@@ -70,8 +70,8 @@ TEST(what_is_written_is_read_in_every_layout)
     for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
         rb_io_fclib p, back;
         small_local(&p);
-        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &heard));
-        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &message));
+        CHECK_OK(rb_io_fclib_read(path, &back, &message));
         assert_int_equal(back.global, 0);
         assert_int_equal(back.spacedim, 3);
         assert_int_equal(back.contacts, 2);
@@ -84,8 +84,8 @@ TEST(what_is_written_is_read_in_every_layout)
         rb_io_fclib_free(&p);
 
         small_global(&p);
-        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &heard));
-        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &message));
+        CHECK_OK(rb_io_fclib_read(path, &back, &message));
         assert_int_equal(back.global, 1);
         same_sparse(&p.M, &back.M);
         same_sparse(&p.H, &back.H);
@@ -107,8 +107,8 @@ TEST(one_triangle_of_m_is_completed)
         double x[] = {2.0, 2.0, 5.0, -1.0};
         CHECK_OK(rb_sparse_from_triplets(
             &(rb_triplets){.rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x}, &p.M));
-        CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &heard));
-        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
+        CHECK_OK(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &message));
+        CHECK_OK(rb_io_fclib_read(path, &back, &message));
         same_sparse(&full, &back.M);
         rb_io_fclib_free(&back);
         rb_io_fclib_free(&p);
@@ -153,9 +153,9 @@ static void fresh_global(void)
 static void refused(const char *words)
 {
     rb_io_fclib p;
-    CHECK_STATUS(rb_io_fclib_read(path, &p, &heard), RB_EFORMAT);
-    if (!strstr(heard.text, words) || !strstr(heard.text, path))
-        fail_msg("'%s' lacks '%s'", heard.text, words);
+    CHECK_STATUS(rb_io_fclib_read(path, &p, &message), RB_EFORMAT);
+    if (!strstr(message.text, words) || !strstr(message.text, path))
+        fail_msg("'%s' lacks '%s'", message.text, words);
     assert_null(p.W.p);
 }
 
@@ -345,8 +345,8 @@ TEST(constraints_are_read_as_written_in_every_layout)
         small_constrained(&p, 0);
         p.u = p.r; /* u alone */
         p.r = NULL;
-        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &heard));
-        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &message));
+        CHECK_OK(rb_io_fclib_read(path, &back, &message));
         assert_int_equal(back.constraints, 1);
         same_sparse(&p.V, &back.V);
         same_sparse(&p.R, &back.R);
@@ -369,8 +369,8 @@ TEST(constraints_are_read_as_written_in_every_layout)
         p.v = NULL;
         CHECK_OK(rb_sparse_from_triplets(
             &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x}, &p.G));
-        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &heard));
-        CHECK_OK(rb_io_fclib_read(path, &back, &heard));
+        CHECK_OK(rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &message));
+        CHECK_OK(rb_io_fclib_read(path, &back, &message));
         same_sparse(&p.G, &back.G);
         CHECK_ABS(back.b[0], 0.75, 0.0, "b");
         assert_null(back.r);
@@ -525,7 +525,7 @@ TEST(memory_is_bounded_by_the_size_of_the_file)
 TEST(other_files_are_refused)
 {
     rb_io_fclib p;
-    CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &heard), RB_ENOENT);
+    CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &message), RB_ENOENT);
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     H5Fclose(file);
     refused("no FCLib problem");
@@ -536,7 +536,7 @@ TEST(other_files_are_refused)
     fclose(f);
     for (long cut = size - 1; cut > 8; cut = cut * 2 / 3) {
         assert_int_equal(truncate(path, cut), 0);
-        CHECK_STATUS(rb_io_fclib_read(path, &p, &heard), RB_EFORMAT);
+        CHECK_STATUS(rb_io_fclib_read(path, &p, &message), RB_EFORMAT);
     }
     assert_int_equal(truncate(path, 3), 0);
     refused("not an HDF5 file");
@@ -546,7 +546,7 @@ TEST(other_files_are_refused)
     fresh_local();
     assert_int_equal(rb_io_is_hdf5(path), 1);
     CHECK_STATUS(
-        rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC, "", "", &heard),
+        rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC, "", "", &message),
         RB_EWRITE);
     rb_io_fclib_free(NULL);
 }
@@ -556,25 +556,26 @@ TEST(problems_go_through_files)
     rb_friction_problem p;
     const double bad[] = {0.3, -1.0};
     fresh_local();
-    CHECK_OK(rb_friction_read(path, &p, &heard));
+    CHECK_OK(rb_friction_read(path, &p, &message));
     assert_int_equal(p.form, RB_FRICTION_LOCAL_SPARSE);
     assert_int_equal(p.contacts, 2);
-    CHECK_OK(rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL}, "again", &heard));
+    CHECK_OK(
+        rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL}, "again", &message));
     rb_friction_problem_free(&p);
-    CHECK_OK(rb_friction_read(path, &p, &heard));
+    CHECK_OK(rb_friction_read(path, &p, &message));
     CHECK_ABS(p.q[5], 2.5, 0.0, "q");
     rb_friction_problem_free(&p);
     overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 2, bad);
-    CHECK_SAYS(rb_friction_read(path, &p, &heard), RB_EFORMAT, "mu of contact 2 is -1");
-    assert_non_null(strstr(heard.text, path));
+    CHECK_SAYS(rb_friction_read(path, &p, &message), RB_EFORMAT, "mu of contact 2 is -1");
+    assert_non_null(strstr(message.text, path));
 
     OWNED(rb_io_fclib) g;
     small_global(&g);
-    CHECK_OK(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &heard));
-    CHECK_OK(rb_friction_read(path, &p, &heard));
+    CHECK_OK(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &message));
+    CHECK_OK(rb_friction_read(path, &p, &message));
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 3);
-    CHECK_OK(rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &heard));
+    CHECK_OK(rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &message));
     rb_friction_problem_free(&p);
 }
 
@@ -617,14 +618,14 @@ TEST(outside_files_are_read)
 {
     rb_friction_problem p;
     rb_friction_facts facts;
-    CHECK_OK(rb_friction_read(outside_data("fclib/CubeH8.hdf5"), &p, &heard));
+    CHECK_OK(rb_friction_read(outside_data("fclib/CubeH8.hdf5"), &p, &message));
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 162);
     assert_int_equal(p.contacts, 1);
     assert_int_equal(p.K.p[162], 2 * 3168 - 162);
     rb_friction_problem_free(&p);
     CHECK_OK(rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"), &p,
-                              &heard));
+                              &message));
     CHECK_OK(rb_friction_examine(&p, 1, &facts));
     assert_int_equal(p.contacts, 60);
     assert_true(facts.rank >= 72 && facts.rank <= 73);

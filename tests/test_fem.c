@@ -244,13 +244,13 @@ TEST(bad_input_is_refused)
     rb_sparse A = {0};
     CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 0, 1, &mesh), RB_EINVAL);
     CHECK_OK(rb_fem_mesh_alloc(RB_FEM_QUAD, 4, 1, &mesh));
-    CHECK_SAYS(rb_fem_stiffness(&mesh, &material, &A, &heard), RB_EINVAL, "element 0");
-    CHECK_STATUS(rb_fem_mass(&mesh, &material, &A, &heard), RB_EINVAL);
+    CHECK_SAYS(rb_fem_stiffness(&mesh, &material, &A, &message), RB_EINVAL, "element 0");
+    CHECK_STATUS(rb_fem_mass(&mesh, &material, &A, &message), RB_EINVAL);
     mesh.node[2] = 4;
-    CHECK_SAYS(rb_fem_stiffness(&mesh, &material, &A, &heard), RB_EINVAL, "node 4 of 4");
+    CHECK_SAYS(rb_fem_stiffness(&mesh, &material, &A, &message), RB_EINVAL, "node 4 of 4");
     mesh.node[2] = -1;
-    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "element 0: node -1 of 4");
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &message), RB_EINVAL);
+    assert_string_equal(message.text, "element 0: node -1 of 4");
     const struct {
         rb_fem_material m;
         const char *part;
@@ -261,20 +261,20 @@ TEST(bad_input_is_refused)
                  {{.young = 1.0, .poisson = -1.0, .section = 1.0}, "poisson = -1: expected in"},
                  {{.young = 1.0, .poisson = 0.3, .section = 0.0}, "section = 0: expected > 0"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        CHECK_SAYS(rb_fem_stiffness(&mesh, &wrong[k].m, &A, &heard), RB_EINVAL, wrong[k].part);
+        CHECK_SAYS(rb_fem_stiffness(&mesh, &wrong[k].m, &A, &message), RB_EINVAL, wrong[k].part);
     }
     mesh.node[2] = 2;
     for (int k = 0; k < 8; k++)
         rb_fem_mesh_hold(&mesh, k / 2, k % 2);
     rb_fem_mesh_number(&mesh);
-    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "mesh: every node is held");
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &message), RB_EINVAL);
+    assert_string_equal(message.text, "mesh: every node is held");
     rb_fem_mesh_free(&mesh);
     CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_BRICK, 4, -1, &mesh), RB_EINVAL);
     CHECK_OK(rb_fem_mesh_alloc(RB_FEM_BRICK, 8, 1, &mesh));
     const rb_fem_material weightless = {.young = 1.0, .poisson = 0.3};
-    CHECK_STATUS(rb_fem_mass(&mesh, &weightless, &A, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "density = 0: expected > 0");
+    CHECK_STATUS(rb_fem_mass(&mesh, &weightless, &A, &message), RB_EINVAL);
+    assert_string_equal(message.text, "density = 0: expected > 0");
     rb_fem_mesh_free(&mesh);
 }
 

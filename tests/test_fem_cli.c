@@ -55,8 +55,8 @@ static int is_result(const char *name)
 static void matches(const char *recorded)
 {
     OWNED(rb_io_table) got, want;
-    CHECK_OK(rb_io_table_read(inside("out.tsv"), &got, &heard));
-    CHECK_OK(rb_io_table_read(recorded, &want, &heard));
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), &got, &message));
+    CHECK_OK(rb_io_table_read(recorded, &want, &message));
     assert_int_equal(got.rows, want.rows);
     assert_int_equal(got.columns, want.columns);
     for (int j = 0; j < want.columns; j++) {
@@ -91,7 +91,7 @@ static void json_matches_the_table(const char *arguments, int code)
     snprintf(json_of, sizeof json_of, "%s --json >%s/out.json 2>/dev/null", arguments, folder);
     assert_int_equal(run("%s", table_of), code);
     assert_int_equal(run("%s", json_of), code);
-    CHECK_OK(rb_io_table_read(inside("out.tsv"), &table, &heard));
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), &table, &message));
     held_json *root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     assert_int_equal(json_array_size(steps), table.rows);
@@ -155,7 +155,7 @@ TEST(the_wall_writes_its_problems)
         char name[40];
         OWNED(rb_friction_problem) problem;
         snprintf(name, sizeof name, "wall/wall-%02d.hdf5", k);
-        CHECK_OK(rb_friction_read(inside(name), &problem, &heard));
+        CHECK_OK(rb_friction_read(inside(name), &problem, &message));
         assert_int_equal(problem.form, RB_FRICTION_GLOBAL);
         assert_int_equal(problem.contacts, 161);
         assert_int_equal(problem.dofs, 901);
@@ -166,7 +166,7 @@ static void read_steps(rb_io_table *table, const char *arguments)
 {
     rb_io_table_free(table);
     assert_int_equal(run("%s --quiet --output %s", arguments, inside("out.tsv")), 0);
-    CHECK_OK(rb_io_table_read(inside("out.tsv"), table, &heard));
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), table, &message));
 }
 
 /* Without friction the bar is in uniform plane strain; no gap is open in the beginning, so

@@ -123,8 +123,8 @@ static void bar_by(const char *solver, double tol)
     const json_t *increments = json_object_get(bar, "increments");
     OWNED(rb_fem_model) model;
     OWNED(rb_fem_history) h;
-    CHECK_OK(rb_fem_model_bar(160, 16, &model, &heard));
-    CHECK_OK(rb_fem_run(&model, solver, tol, &h, &heard));
+    CHECK_OK(rb_fem_model_bar(160, 16, &model, &message));
+    CHECK_OK(rb_fem_run(&model, solver, tol, &h, &message));
     assert_int_equal(h.steps, 5);
     for (int k = 0; k < 5; k++)
         check_bar_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
@@ -216,8 +216,8 @@ static void truss_by(const char *solver, rb_fem_layout layout, int n)
     const json_t *nodes = json_object_get(set, n == 12 ? "n12_nodes" : "n4_nodes");
     OWNED(rb_fem_model) model;
     OWNED(rb_fem_history) h;
-    CHECK_OK(rb_fem_model_truss(layout, n, &model, &heard));
-    CHECK_OK(rb_fem_run(&model, solver, 1e-12, &h, &heard));
+    CHECK_OK(rb_fem_model_truss(layout, n, &model, &message));
+    CHECK_OK(rb_fem_run(&model, solver, 1e-12, &h, &message));
     assert_int_equal(h.steps, 6);
     for (int k = 0; k < 6; k++)
         check_truss_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
@@ -251,8 +251,8 @@ TEST(condensation_changes_nothing)
     rb_fem_units units;
     OWNED(rb_friction_problem) problem;
     rb_friction_info info;
-    CHECK_OK(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 4, &model, &heard));
-    CHECK_OK(rb_fem_run(&model, "nsn-ac", 1e-12, &h, &heard));
+    CHECK_OK(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 4, &model, &message));
+    CHECK_OK(rb_fem_run(&model, "nsn-ac", 1e-12, &h, &message));
     CHECK_OK(rb_fem_state_alloc(&model.structure, &start));
     CHECK_OK(rb_fem_problem(&model.structure, model.load, &start, &problem, &units));
     const int m = 3 * model.structure.contacts;
@@ -269,8 +269,8 @@ TEST(an_unknown_solver_is_refused)
 {
     OWNED(rb_fem_model) model;
     OWNED(rb_fem_history) h;
-    CHECK_OK(rb_fem_model_bar(4, 2, &model, &heard));
-    CHECK_SAYS(rb_fem_run(&model, "nosuch", 1e-8, &h, &heard), RB_EINVAL, "nosuch");
+    CHECK_OK(rb_fem_model_bar(4, 2, &model, &message));
+    CHECK_SAYS(rb_fem_run(&model, "nosuch", 1e-8, &h, &message), RB_EINVAL, "nosuch");
 }
 
 /* The whole stiffness of a truss is singular, so that a solver of the condensed problem
@@ -279,8 +279,8 @@ TEST(an_increment_that_has_not_begun_is_none)
 {
     OWNED(rb_fem_model) model;
     OWNED(rb_fem_history) h;
-    CHECK_OK(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 2, &model, &heard));
-    CHECK_SAYS(rb_fem_run(&model, "extragradient", 1e-8, &h, &heard), RB_SINGULAR,
+    CHECK_OK(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 2, &model, &message));
+    CHECK_SAYS(rb_fem_run(&model, "extragradient", 1e-8, &h, &message), RB_SINGULAR,
                "K is singular to rounding");
     assert_int_equal(h.steps, 0);
 }

@@ -116,7 +116,7 @@ static int free_walls(void **state)
 static const char *draw_wall(const solved_wall *w, rb_report_canvas canvas, int steps)
 {
     FILE *out = tmpfile();
-    CHECK_OK(rb_fem_picture_wall(out, canvas, w->wall, steps, w->step, &heard));
+    CHECK_OK(rb_fem_picture_wall(out, canvas, w->wall, steps, w->step, &message));
     return written(out);
 }
 
@@ -319,7 +319,7 @@ TEST(truss_is_drawn_by_its_slips)
                 k++;
             }
         FILE *out = tmpfile();
-        CHECK_OK(rb_fem_picture_truss(out, page, &model, &history, &heard));
+        CHECK_OK(rb_fem_picture_truss(out, page, &model, &history, &message));
         const char *script = written(out);
         check_says(script, names[layout]);
         assert_null(strstr(script, names[1 - layout]));

@@ -7,7 +7,7 @@ TEST(selection_is_by_difficulty)
     rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
     rb_fem_wall_step step[6];
-    int chosen[5], seen[6] = {0};
+    int chosen[5], times[6] = {0};
     o.press = 2;
     o.shear = 3;
     CHECK_OK(rb_fem_wall_create(&o, &wall, NULL));
@@ -16,7 +16,7 @@ TEST(selection_is_by_difficulty)
     CHECK_STATUS(rb_fem_wall_select(wall, 6, chosen), RB_EINVAL);
     CHECK_OK(rb_fem_wall_select(wall, 5, chosen));
     for (int k = 0; k < 5; k++) {
-        assert_true(chosen[k] > 0 && !seen[chosen[k]]++);
+        assert_true(chosen[k] > 0 && !times[chosen[k]]++);
         assert_true(k == 0 || step[chosen[k]].iterations >= step[chosen[k - 1]].iterations);
     }
     rb_fem_wall_free(wall);
@@ -96,9 +96,9 @@ TEST(bad_input_is_refused)
             .dt = walls[k].dt, .press = walls[k].press, .shear = walls[k].shear};
         memcpy(o.fine, walls[k].fine, sizeof o.fine);
         memcpy(o.coarse, walls[k].coarse, sizeof o.coarse);
-        CHECK_STATUS(rb_fem_wall_create(&o, &wall, &heard), walls[k].part ? RB_EINVAL : RB_OK);
+        CHECK_STATUS(rb_fem_wall_create(&o, &wall, &message), walls[k].part ? RB_EINVAL : RB_OK);
         if (walls[k].part)
-            assert_non_null(strstr(heard.text, walls[k].part));
+            assert_non_null(strstr(message.text, walls[k].part));
         assert_int_equal(wall == NULL, walls[k].part != NULL);
         rb_fem_wall_free(wall);
     }
@@ -125,8 +125,8 @@ TEST(a_step_can_be_stopped)
         o.stopped = stop_at_the_third;
         o.context = &asked;
         CHECK_OK(rb_fem_wall_create(&o, &wall, NULL));
-        CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &heard), RB_INTERRUPTED);
-        assert_string_equal(heard.text, "interrupted after step 0");
+        CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &message), RB_INTERRUPTED);
+        assert_string_equal(message.text, "interrupted after step 0");
         assert_true(asked >= 3 && asked <= 4); /* the last iterate is measured once more */
         CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);
         rb_fem_wall_free(wall);
@@ -273,8 +273,8 @@ TEST(auto_turns_to_smoothing_where_newton_cycles)
     rb_fem_wall_step step;
     OWNED(rb_friction_problem) p;
     rb_friction_info smooth, info;
-    CHECK_OK(rb_fem_wall_create(&o, &wall, &heard));
-    CHECK_OK(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &heard));
+    CHECK_OK(rb_fem_wall_create(&o, &wall, &message));
+    CHECK_OK(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &message));
     CHECK_OK(rb_fem_wall_problem(wall, 0, &p));
     const size_t m = 3 * (size_t)p.contacts, n = (size_t)p.dofs;
     SCRATCH double *r = rb_alloc(m, 2), *v = rb_alloc(n, 1);

@@ -26,15 +26,15 @@ static rb_case *case_of(rb_case_purpose purpose)
 {
     rb_case *c = NOT_NULL(rb_case_create(purpose));
     for (size_t k = 0; k < sizeof bodies / sizeof *bodies; k++)
-        if (rb_case_set(c, bodies[k][0], bodies[k][1], RB_GIVEN_ARGUMENT, &heard) != RB_OK)
-            fail_msg("%s", heard.text);
+        if (rb_case_set(c, bodies[k][0], bodies[k][1], RB_GIVEN_ARGUMENT, &message) != RB_OK)
+            fail_msg("%s", message.text);
     return c;
 }
 
 static void set_number(rb_case *c, const char *name, double x)
 {
-    if (rb_case_set_number(c, name, x, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (rb_case_set_number(c, name, x, &message) != RB_OK)
+        fail_msg("%s", message.text);
 }
 
 /* Q/P at a creepage, of friction that falls behind a third body. */
@@ -42,16 +42,16 @@ static double force_at(double creep)
 {
     held_case *c = case_of(RB_CASE_SINGLE);
     OWNED(rb_case_result) r;
-    CHECK_OK(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &heard));
+    CHECK_OK(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &message));
     set_number(c, "mu", MU);
     set_number(c, "mu-fall", FALL);
     set_number(c, "slip-scale", SCALE);
     set_number(c, "interlayer-tangential", LAYER);
     set_number(c, "speed", 200.0);
     set_number(c, "creep", creep);
-    CHECK_OK(rb_case_resolve(c, &heard));
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    CHECK_OK(rb_case_resolve(c, &message));
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) != RB_OK)
+        fail_msg("%s", message.text);
     const double f = r.solution.tangential_load / r.solution.normal_load;
     return f;
 }
@@ -83,7 +83,8 @@ static rb_case_fit fit_of(int n, const char *const *names)
     return fit;
 }
 
-static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit, rb_message *why)
+static rb_status solve_fit(const rb_case_data *data, double speed, rb_case_fit *fit,
+                           rb_message *why)
 {
     held_case *c = case_of(RB_CASE_CURVE);
     if (speed > 0.0)
@@ -105,8 +106,8 @@ TEST(exact_data_give_the_truth)
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
     OWNED(rb_case_fit) fit = fit_of(5, all);
-    if (solve(&data, 200.0, &fit, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (solve_fit(&data, 200.0, &fit, &message) != RB_OK)
+        fail_msg("%s", message.text);
     for (int j = 0; j < 5; j++)
         CHECK_REL(fit.parameter[j].value, *truth[j], 1e-5, "%s", all[j]);
 }
@@ -124,8 +125,8 @@ TEST(poor_starts_give_the_truth)
         OWNED(rb_case_fit) fit = fit_of(5, all);
         for (int j = 0; j < 5; j++)
             fit.parameter[j].start = far[k][j];
-        if (solve(&data, 200.0, &fit, &heard) != RB_OK)
-            fail_msg("start %zu: %s", k, heard.text);
+        if (solve_fit(&data, 200.0, &fit, &message) != RB_OK)
+            fail_msg("start %zu: %s", k, message.text);
         for (int j = 0; j < 5; j++)
             CHECK_REL(fit.parameter[j].value, *truth[j], 1e-6, "start %zu: %s", k, all[j]);
         if (far[k][3] == 0.0) /* a part of a/E*, where the start has no size; E* = 200 MPa */
@@ -148,11 +149,11 @@ TEST(units_do_not_matter)
     OWNED(rb_case_fit) fit = fit_of(3, all + 2);
     held_case *c = case_of(RB_CASE_CURVE);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        CHECK_OK(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_prepare_fit(c, &data, &fit, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
-    if (rb_case_fit_solve(c, &data, NULL, &fit, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+        CHECK_OK(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_prepare_fit(c, &data, &fit, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
+    if (rb_case_fit_solve(c, &data, NULL, &fit, &message) != RB_OK)
+        fail_msg("%s", message.text);
     for (int j = 0; j < 3; j++)
         CHECK_REL(fit.parameter[j].value, *truth[2 + j], 1e-6, "%s", all[2 + j]);
 }
@@ -162,8 +163,8 @@ TEST(noise_leaves_it_in_the_intervals)
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
                                NULL,   NULL};
     OWNED(rb_case_fit) fit = fit_of(5, all);
-    if (solve(&data, 200.0, &fit, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (solve_fit(&data, 200.0, &fit, &message) != RB_OK)
+        fail_msg("%s", message.text);
     assert_int_equal(fit.unidentified, 0);
     CHECK_ABS(fit.noise, 1e-3, 0.5e-3, "noise");
     for (int j = 0; j < 5; j++) {
@@ -193,22 +194,22 @@ TEST(solutions_are_followed)
     rb_sensitivity *s = NULL;
     for (int k = 0; k < 2; k++) {
         held_case *c = case_of(RB_CASE_SINGLE);
-        CHECK_OK(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &message));
         set_number(c, "mu", k ? 1.1 * MU : MU);
         set_number(c, "mu-fall", FALL);
         set_number(c, "slip-scale", SCALE);
         set_number(c, "speed", 200.0);
         set_number(c, "creep", k ? -1.8e-3 : -1e-3);
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_resolve(c, &message));
         rc[k] = rb_case_resolved(c)->rc;
     }
-    CHECK_OK(rb_rolling_model_create(&rc[0], &from, &heard));
-    CHECK_OK(rb_sensitivity_create(&from, 0, &s, &heard));
+    CHECK_OK(rb_rolling_model_create(&rc[0], &from, &message));
+    CHECK_OK(rb_sensitivity_create(&from, 0, &s, &message));
     const double traction = from.problem.mu * from.problem.stress;
     rb_rolling_model followed = {.mesh = {.n = 0}}, solved = {.mesh = {.n = 0}};
-    CHECK_OK(rb_rolling_variant_create(&from, &rc[1], 1, 0, NULL, &followed, &heard));
-    CHECK_OK(rb_sensitivity_follow(s, &followed, &heard));
-    CHECK_OK(rb_rolling_variant_solve(&from, &rc[1], &solved, &heard));
+    CHECK_OK(rb_rolling_variant_create(&from, &rc[1], 1, 0, NULL, &followed, &message));
+    CHECK_OK(rb_sensitivity_follow(s, &followed, &message));
+    CHECK_OK(rb_rolling_variant_solve(&from, &rc[1], &solved, &message));
     int others = 0, border = 0;
     for (int i = 0; i < from.mesh.n; i++) {
         others += from.state.zone[i] != solved.state.zone[i];
@@ -225,9 +226,9 @@ TEST(solutions_are_followed)
     OWNED(rb_sensitivity_rate) left = {0};
     const int zone = from.state.zone[border - 1];
     assert_true(border > 0);
-    CHECK_OK(rb_sensitivity_extend(s, border, zone, &beyond, &extended, &heard));
+    CHECK_OK(rb_sensitivity_extend(s, border, zone, &beyond, &extended, &message));
     CHECK_OK(rb_sensitivity_rate_alloc(from.mesh.n, &left));
-    CHECK_OK(rb_sensitivity_residual(&from, &beyond, &left, &heard));
+    CHECK_OK(rb_sensitivity_residual(&from, &beyond, &left, &message));
     const double sign = zone == RB_ZONE_SLIP_POSITIVE ? 1.0 : -1.0;
     CHECK_MAX(left.slip[border] * -sign, 0.0, "the slip violates the law");
     for (int i = 0; i < from.mesh.n; i++) {
@@ -262,8 +263,8 @@ TEST(starts_end_at_one_minimum)
             OWNED(rb_case_fit) fit = fit_of(5, all);
             for (int j = 0; j < 5; j++)
                 fit.parameter[j].start = part[start] * *truth[j];
-            if (solve(&data, 200.0, &fit, &heard) != RB_OK)
-                fail_msg("%s", heard.text);
+            if (solve_fit(&data, 200.0, &fit, &message) != RB_OK)
+                fail_msg("%s", message.text);
             if (start == 0)
                 least = fit.chi_square;
             CHECK_REL(fit.chi_square, least, 1e-9, "set %d, start %d", set, start);
@@ -297,8 +298,8 @@ TEST(forces_and_ratios_agree)
                                    NULL,
                                    NULL};
         fits[j] = fit_of(1, names);
-        if (solve(&data, 0.0, &fits[j], &heard) != RB_OK)
-            fail_msg("%s", heard.text);
+        if (solve_fit(&data, 0.0, &fits[j], &message) != RB_OK)
+            fail_msg("%s", message.text);
     }
     CHECK_REL(fits[1].parameter[0].value, fits[0].parameter[0].value, 1e-6, "mu");
     CHECK_REL(fits[1].parameter[0].deviation, fits[0].parameter[0].deviation, 1e-5, "deviation");
@@ -312,8 +313,8 @@ TEST(no_falling_part_is_said)
     const rb_case_data data = {7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
     OWNED(rb_case_fit) fit = fit_of(3, names);
-    if (solve(&data, 200.0, &fit, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (solve_fit(&data, 200.0, &fit, &message) != RB_OK)
+        fail_msg("%s", message.text);
     assert_non_null(
         strstr(fit.sentences, "no point in the falling part: slip-scale is not identified"));
     assert_false(fit.parameter[2].identified);
@@ -331,9 +332,9 @@ TEST(numbers_that_only_move_elements_are_told)
     OWNED(rb_case_fit) fit = fit_of(1, names);
     held_case *c = rb_case_create(RB_CASE_CURVE);
     for (int k = 0; k < 8; k += 2)
-        CHECK_OK(rb_case_set(c, words[k], words[k + 1], RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_resolve(c, &heard));
-    CHECK_OK(rb_case_fit_solve(c, &data, NULL, &fit, &heard));
+        CHECK_OK(rb_case_set(c, words[k], words[k + 1], RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_resolve(c, &message));
+    CHECK_OK(rb_case_fit_solve(c, &data, NULL, &fit, &message));
     assert_false(fit.parameter[0].identified);
     assert_non_null(strstr(fit.sentences, "the data do not determine load"));
 }
@@ -345,7 +346,7 @@ static rb_case *rubber_case(rb_case_purpose purpose)
         "0.45",    "contact-elements", "24",   "formulation", "steady"};
     rb_case *c = rb_case_create(purpose);
     for (int i = 0; i < 10; i += 2)
-        CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &message));
     return c;
 }
 
@@ -363,9 +364,9 @@ static rb_case_fit fit_of_rubber(double young, double low)
     fit.parameter[0].start = 0.4;
     fit.parameter[1].start = young;
     fit.parameter[1].low = low;
-    CHECK_OK(rb_case_resolve(c, &heard));
-    if (rb_case_fit_solve(c, &of_rubber, NULL, &fit, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    CHECK_OK(rb_case_resolve(c, &message));
+    if (rb_case_fit_solve(c, &of_rubber, NULL, &fit, &message) != RB_OK)
+        fail_msg("%s", message.text);
     return fit;
 }
 
@@ -379,8 +380,8 @@ static double squares_at(double mu, double young)
         set_number(c, "mu", mu);
         set_number(c, "young", young);
         set_number(c, "creep", of_rubber.creep[k]);
-        CHECK_OK(rb_case_resolve(c, &heard));
-        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+        CHECK_OK(rb_case_resolve(c, &message));
+        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
         sum += pow(r.solution.tangential_load / r.solution.normal_load - of_rubber.force[k], 2.0);
     }
     return sum;
@@ -442,9 +443,9 @@ TEST(a_start_far_away_ends_at_the_same_numbers)
         set_number(c, "contact-elements", 16.0);
         fit.parameter[0].start = 0.4;
         fit.parameter[1].start = k ? 3e4 : 3.0;
-        CHECK_OK(rb_case_resolve(c, &heard));
-        if (rb_case_fit_solve(c, &data, NULL, &fit, &heard) != RB_OK)
-            fail_msg("%s", heard.text);
+        CHECK_OK(rb_case_resolve(c, &message));
+        if (rb_case_fit_solve(c, &data, NULL, &fit, &message) != RB_OK)
+            fail_msg("%s", message.text);
         near = k ? near : fit.parameter[1];
         CHECK_ABS(fit.parameter[1].value, near.value, 0.1 * near.deviation, "thickness");
         CHECK_REL(fit.parameter[1].deviation, near.deviation, 0.02, "its deviation");
@@ -461,9 +462,9 @@ TEST(failing_allocations_are_told)
         rb_case_fit fit = fit_of(2, names);
         rb_case *c = case_of(RB_CASE_CURVE);
         set_number(c, "contact-elements", 20.0);
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_resolve(c, &message));
         alloc_fail_after(count);
-        const rb_status s = rb_case_fit_solve(c, &data, NULL, &fit, &heard);
+        const rb_status s = rb_case_fit_solve(c, &data, NULL, &fit, &message);
         const int failed = alloc_failed();
         alloc_succeed();
         rb_case_fit_free(&fit);
@@ -482,13 +483,13 @@ TEST(refusals)
                                NULL,   NULL};
     static const char *const nonsense[] = {"zone"};
     rb_case_fit fit = fit_of(1, nonsense);
-    CHECK_SAYS(solve(&data, 0.0, &fit, &heard), RB_EINVAL, "'zone' is not a number");
+    CHECK_SAYS(solve_fit(&data, 0.0, &fit, &message), RB_EINVAL, "'zone' is not a number");
     rb_case_fit_free(&fit);
     fit = fit_of(5, all);
     rb_case_data few = data;
     few.n = 5;
-    CHECK_STATUS(solve(&few, 200.0, &fit, &heard), RB_EINVAL);
-    assert_non_null(strstr(heard.text, "expected at least 6 points for 5 numbers, got 5"));
+    CHECK_STATUS(solve_fit(&few, 200.0, &fit, &message), RB_EINVAL);
+    assert_non_null(strstr(message.text, "expected at least 6 points for 5 numbers, got 5"));
     rb_case_fit_free(&fit);
 }
 
@@ -538,8 +539,8 @@ static const char *script_of(const rb_case_data *data, const rb_case_fit *fit, r
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     const rb_report_fit shown = {fit, data, units};
     FILE *file = NOT_NULL(tmpfile());
-    if (rb_report_fit_picture(file, canvas, &shown, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (rb_report_fit_picture(file, canvas, &shown, &message) != RB_OK)
+        fail_msg("%s", message.text);
     rewind(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
     fclose(file);
@@ -1157,16 +1158,16 @@ TEST(random_fits_find_the_truth_or_refuse)
 {
     static const double factors[] = {2.0, 0.5, 4.0, 0.25, 8.0, 0.125};
     enum { FACTORS = sizeof factors / sizeof factors[0] };
-    int intervals = 0, seen = 0;
+    int intervals = 0, counted = 0;
 
     for (int k = 0; k < FACTORS * FITTED; k++) {
         if (!is_in_turn(k, 27))
             continue;
         fit_planted(k % FITTED, 1000u * (unsigned)k + 7u, factors[k / FITTED], k % 2 ? 0.004 : 0.0,
                     &intervals);
-        seen++;
+        counted++;
     }
-    assert_true(2 * intervals >= seen || seen < 4); /* most of them are found */
+    assert_true(2 * intervals >= counted || counted < 4); /* most of them are found */
 }
 
 /* A layer from an eighth of its thickness: the sum has another minimum at a twentieth. */

@@ -160,7 +160,7 @@ TEST(condensation_gives_the_same_problem)
     rb_friction_info info;
     double r[M], u[M], v[2 * M], r2[M], u2[M];
     series_of_springs(3, NC, 1.0, &p);
-    CHECK_OK(rb_friction_condense(&p, &local, &heard));
+    CHECK_OK(rb_friction_condense(&p, &local, &message));
     /* springs in series: W = 2, q = w + f */
     for (int j = 0; j < M; j++) {
         assert_int_equal(local.Ws.p[j + 1] - local.Ws.p[j], 1);
@@ -216,7 +216,7 @@ TEST(bodies_of_every_size_are_condensed)
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         rb_friction_problem p, local;
         chains(sizes[s], 5, &p);
-        CHECK_OK(rb_friction_condense(&p, &local, &heard));
+        CHECK_OK(rb_friction_condense(&p, &local, &message));
         for (int j = 0; j < 10; j++) {
             assert_int_equal(local.Ws.p[j + 1] - local.Ws.p[j], 1);
             CHECK_REL(local.Ws.x[j], (double)sizes[s], 1e-12, "W of %d", sizes[s]);
@@ -225,7 +225,7 @@ TEST(bodies_of_every_size_are_condensed)
         rb_friction_problem_free(&local);
         p.K.x[0] = 0.0; /* the first mass is gone; longer chains lose their hold */
         if (sizes[s] == 1)
-            CHECK_STATUS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR);
+            CHECK_STATUS(rb_friction_condense(&p, &local, &message), RB_SINGULAR);
         rb_friction_problem_free(&p);
     }
 }
@@ -243,13 +243,13 @@ TEST(a_handle_solves_one_load_after_another)
         else
             plant(2, 20, 9, &p, planted);
         const int m = 2 * p.contacts;
-        CHECK_OK(rb_friction_setup(&p, &handle, &heard));
+        CHECK_OK(rb_friction_setup(&p, &handle, &message));
         for (int load = 0; load < 4; load++) {
             static const char *const solvers[] = {"nsgs-ac", "auto", "nsgs-ac", "nsgs-aa"};
             for (int k = 0; load && k < m; k++)
                 *(global ? &p.w[k] : &p.q[k]) += 1e-3 * (k % 7);
             p.mu[load] *= 0.9;
-            CHECK_OK(rb_friction_update(handle, &heard));
+            CHECK_OK(rb_friction_update(handle, &message));
             CHECK_OK(rb_friction_handle_solve(handle, solvers[load], NULL,
                                               &(rb_friction_solution){r, u, NULL}, &warm));
             CHECK_OK(rb_friction_solve(solvers[load], &p, NULL,
@@ -263,9 +263,9 @@ TEST(a_handle_solves_one_load_after_another)
                                           &(rb_friction_solution){r, u, NULL}, &warm));
         assert_int_equal(warm.iters, 0);
         p.mu[0] = -1.0;
-        CHECK_STATUS(rb_friction_update(handle, &heard), RB_EINVAL);
+        CHECK_STATUS(rb_friction_update(handle, &message), RB_EINVAL);
         rb_friction_handle_free(handle);
-        CHECK_STATUS(rb_friction_setup(&p, &handle, &heard), RB_EINVAL);
+        CHECK_STATUS(rb_friction_setup(&p, &handle, &message), RB_EINVAL);
         assert_null(handle);
     }
     rb_friction_handle_free(NULL);
@@ -281,7 +281,7 @@ TEST(a_structure_held_by_friction_alone_is_solved)
     rb_friction_errors error;
     series_of_springs(3, NC, 0.0, &p);
     p.f[2 * 4] = 0.3; /* contact 2 sticks too */
-    CHECK_SAYS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR, "nullity 6");
+    CHECK_SAYS(rb_friction_condense(&p, &local, &message), RB_SINGULAR, "nullity 6");
     CHECK_OK(rb_friction_examine(&p, 1, &facts));
     assert_int_equal(facts.nullity, 6);
     assert_int_equal(facts.rank, 6);

@@ -36,7 +36,7 @@ TEST(one_two_three_solutions_of_a_node)
         OWNED(rb_friction_solutions) all;
         mu[0] = cases[k].mu;
         const rb_friction_problem p = problem(1);
-        CHECK_OK(rb_friction_all(&p, 0.0, &all, &heard));
+        CHECK_OK(rb_friction_all(&p, 0.0, &all, &message));
         assert_int_equal(all.count, cases[k].count);
         assert_int_equal(all.tried, 4);
         assert_int_equal(all.undecided, 0);
@@ -81,7 +81,7 @@ TEST(rods_have_three_solutions_each)
         }
         const rb_friction_problem p = problem(nc);
         assert_int_equal(rb_friction_may_have_several(&p), 1);
-        CHECK_OK(rb_friction_all(&p, 0.0, &all, &heard));
+        CHECK_OK(rb_friction_all(&p, 0.0, &all, &message));
         count *= 3;
         assert_int_equal(all.count, count);
         assert_int_equal(all.undecided, 0);
@@ -97,7 +97,7 @@ TEST(rods_have_three_solutions_each)
     q[0] = -1.0, q[1] = -0.5, mu[0] = 0.5;
     const rb_friction_problem p = problem(1);
     assert_int_equal(rb_friction_may_have_several(&p), 0);
-    CHECK_OK(rb_friction_all(&p, 0.0, &one, &heard));
+    CHECK_OK(rb_friction_all(&p, 0.0, &one, &message));
     assert_int_equal(one.count, 1);
     assert_int_equal(one.states[0], STICK);
     CHECK_ABS(one.r[0], 0.3144, 1e-4, "r_N");
@@ -134,7 +134,7 @@ TEST(shared_loads_have_their_extremes)
             }
         }
         p.mu[0] = p.mu[1] = 0.5;
-        CHECK_OK(rb_friction_all(&p, 0.0, &all, &heard));
+        CHECK_OK(rb_friction_all(&p, 0.0, &all, &message));
         assert_int_equal(all.undecided, 0);
         assert_true(all.singular > 0 && all.count >= 2);
         for (int k = 0; k < all.count; k++) {
@@ -157,7 +157,7 @@ TEST(without_friction_and_without_solution)
     W[1] = W[2] = 0.9;
     q[0] = -1.0, q[1] = 5.0, mu[0] = 0.0;
     rb_friction_problem p = problem(1);
-    CHECK_OK(rb_friction_all(&p, 0.0, &all, &heard));
+    CHECK_OK(rb_friction_all(&p, 0.0, &all, &message));
     assert_int_equal(all.count, 1);
     assert_int_equal(all.tried, 2);
     assert_int_equal(all.states[0], STICK);
@@ -172,7 +172,7 @@ TEST(without_friction_and_without_solution)
     q[0] = -1.0, q[1] = 0.0, q[2] = 0.5, q[3] = 0.0;
     mu[0] = mu[1] = 0.3;
     p = problem(2);
-    CHECK_OK(rb_friction_all(&p, 0.0, &none, &heard));
+    CHECK_OK(rb_friction_all(&p, 0.0, &none, &message));
     assert_int_equal(none.count, 0);
     assert_int_equal(none.undecided, 0);
 }
@@ -288,7 +288,7 @@ TEST(all_solutions_are_those_of_fractions)
         }
         OWNED(rb_friction_solutions) all;
         const rb_friction_problem p = problem(nc);
-        CHECK_OK(rb_friction_all(&p, 0.0, &all, &heard));
+        CHECK_OK(rb_friction_all(&p, 0.0, &all, &message));
         undecided += all.undecided;
         several += list.count > 1;
         degenerate += all.singular > 0;
@@ -357,23 +357,24 @@ TEST(what_is_refused_is_named)
     for (int c = 0; c < 9; c++)
         of_mu[c] = 0.5;
     rb_friction_problem p = local_with(2, 9, of_mu, many, of_q);
-    CHECK_SAYS(rb_friction_all(&p, 0.0, &all, &heard), RB_EINVAL, "9 contacts: expected at most 8");
+    CHECK_SAYS(rb_friction_all(&p, 0.0, &all, &message), RB_EINVAL,
+               "9 contacts: expected at most 8");
     p = local_with(3, 2, of_mu, many, of_q);
-    CHECK_SAYS(rb_friction_all(&p, 0.0, &all, &heard), RB_EINVAL, "dimension 3");
+    CHECK_SAYS(rb_friction_all(&p, 0.0, &all, &message), RB_EINVAL, "dimension 3");
     memset(many, 0, sizeof many);
     for (int i = 0; i < 14; i++)
         many[15 * i] = 1.0;
     p = local_with(2, 7, of_mu, many, of_q);
-    CHECK_STATUS(rb_friction_all(&p, 1e-4, &all, &heard), RB_TIME_LIMIT);
+    CHECK_STATUS(rb_friction_all(&p, 1e-4, &all, &message), RB_TIME_LIMIT);
     assert_true(all.tried > 0 && all.tried < 16384);
     rb_friction_solutions_free(&all);
     of_q[3] = NAN;
-    CHECK_STATUS(rb_friction_all(&p, 0.0, &all, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_friction_all(&p, 0.0, &all, &message), RB_EINVAL);
     of_q[3] = 0.0;
     p = local_with(2, 2, of_mu, many, of_q);
     for (int i = 0, refused = 1; refused; i++) {
         memset(&all, 0, sizeof all);
-        refused = REFUSED_FROM(i, rb_friction_all(&p, 0.0, &all, &heard));
+        refused = REFUSED_FROM(i, rb_friction_all(&p, 0.0, &all, &message));
         rb_friction_solutions_free(&all);
     }
 }

@@ -156,7 +156,7 @@ TEST(eliminated_constraints_are_those_of_the_saddle_point)
         double r[ROWS];
         make_structure(seed, seed % 2, &s);
         as_problem(&s, &p, &G);
-        CHECK_OK(rb_friction_eliminate(&p, &G, s.b, &heard));
+        CHECK_OK(rb_friction_eliminate(&p, &G, s.b, &message));
         assert_int_equal(p.dofs, DOFS - JOINTS);
         solve_and_assess(&s, &p, r);
         loaded += r[0] > 0.0 || r[3] > 0.0 || r[6] > 0.0;
@@ -234,9 +234,9 @@ TEST(both_forms_come_from_files)
         file[1].f = p.f, file[1].w = p.w;
         copy(JOINTS, s.b, &file[1].b);
         for (int k = 0; k < 2; k++) {
-            CHECK_OK(
-                rb_io_fclib_write(path, &file[k], (rb_io_fclib_layout)(seed % 3), "", "", &heard));
-            CHECK_OK(rb_friction_read(path, &p, &heard));
+            CHECK_OK(rb_io_fclib_write(path, &file[k], (rb_io_fclib_layout)(seed % 3), "", "",
+                                       &message));
+            CHECK_OK(rb_friction_read(path, &p, &message));
             solve_and_assess(&s, &p, r[k]);
             rb_friction_problem_free(&p);
             rb_io_fclib_free(&file[k]);
@@ -266,8 +266,8 @@ TEST(redundant_constraints_drop_out)
     b[JOINTS] = b[0] - 2.0 * b[1];
     b[JOINTS + 1] = 1e7 * b[2];
     CHECK_OK(rb_sparse_from_dense(DOFS, JOINTS + 2, wide, DOFS, &more));
-    CHECK_OK(rb_friction_eliminate(&p, &G, s.b, &heard));
-    CHECK_OK(rb_friction_eliminate(&q, &more, b, &heard));
+    CHECK_OK(rb_friction_eliminate(&p, &G, s.b, &message));
+    CHECK_OK(rb_friction_eliminate(&q, &more, b, &message));
     assert_int_equal(q.dofs, DOFS - JOINTS);
     solve_and_assess(&s, &p, r);
     solve_and_assess(&s, &q, again);
@@ -299,7 +299,7 @@ TEST(a_rod_slides_or_sticks_as_a_whole)
             &G));
         p.mu[0] = p.mu[1] = 0.5;
         p.f[0] = p.f[2] = -1.0, p.f[1] = push;
-        CHECK_OK(rb_friction_eliminate(&p, &G, none, &heard));
+        CHECK_OK(rb_friction_eliminate(&p, &G, none, &message));
         assert_int_equal(p.dofs, 3);
         CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info));
         CHECK_ABS(r[0], 1.0, 1e-7, "r_N");
@@ -324,23 +324,23 @@ TEST(what_cannot_be_is_refused)
     as_problem(&s, &p, &G);
     CHECK_OK(rb_sparse_from_triplets(
         &(rb_triplets){.rows = DOFS, .cols = 2, .nz = 4, .row = row, .col = col, .x = x}, &bad));
-    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &heard), RB_EINVAL, "contradict");
-    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b + 1, &heard), RB_EINVAL, "b: entry 2 is");
-    CHECK_SAYS(rb_friction_eliminate_local(&p, &bad, &bad, b, &heard), RB_EINVAL, "local form");
+    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &message), RB_EINVAL, "contradict");
+    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b + 1, &message), RB_EINVAL, "b: entry 2 is");
+    CHECK_SAYS(rb_friction_eliminate_local(&p, &bad, &bad, b, &message), RB_EINVAL, "local form");
     bad.x[0] = NAN;
-    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &heard), RB_EINVAL, "entry 1 is nan");
+    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &message), RB_EINVAL, "entry 1 is nan");
     rb_sparse_free(&bad);
     CHECK_OK(rb_sparse_from_triplets(
         &(rb_triplets){.rows = DOFS + 1, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
         &bad));
-    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &heard), RB_EINVAL, "G is 15 x 2");
+    CHECK_SAYS(rb_friction_eliminate(&p, &bad, b, &message), RB_EINVAL, "G is 15 x 2");
     rb_sparse_free(&bad);
     for (int i = 0; i < DOFS; i++)
         all[i] = i, ones[i] = 1.0;
     CHECK_OK(rb_sparse_from_triplets(
         &(rb_triplets){.rows = DOFS, .cols = DOFS, .nz = DOFS, .row = all, .col = all, .x = ones},
         &bad));
-    CHECK_SAYS(rb_friction_eliminate(&p, &bad, s.f, &heard), RB_EINVAL, "no motion");
+    CHECK_SAYS(rb_friction_eliminate(&p, &bad, s.f, &message), RB_EINVAL, "no motion");
     rb_sparse_free(&bad);
     assert_int_equal(p.dofs, DOFS); /* the problem is what it was */
     assert_memory_equal(p.f, s.f, sizeof s.f);
@@ -354,13 +354,13 @@ TEST(what_cannot_be_is_refused)
     p = local_of(&file);
     for (int k = 0; k < file.R.p[JOINTS]; k++)
         file.R.x[k] = 0.0;
-    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &message), RB_EINVAL,
                "R has rank 0 of 4");
-    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.R, &file.R, file.s, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.R, &file.R, file.s, &message), RB_EINVAL,
                "V is 4 x 4");
-    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.V, &file.V, file.s, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_friction_eliminate_local(&p, &file.V, &file.V, file.s, &message), RB_EINVAL,
                "R is 9 x 4");
-    CHECK_SAYS(rb_friction_eliminate(&p, &file.V, file.s, &heard), RB_EINVAL, "global form");
+    CHECK_SAYS(rb_friction_eliminate(&p, &file.V, file.s, &message), RB_EINVAL, "global form");
 }
 
 static void put_dense(const rb_sparse *W, double *dense)
@@ -391,7 +391,7 @@ TEST(dense_problems_lose_their_constraints_alike)
             p[k].Ws = (rb_sparse){0};
         }
         file.mu = file.q = NULL, file.W = (rb_sparse){0};
-        CHECK_OK(rb_friction_eliminate_local(&p[k], &file.V, &file.R, file.s, &heard));
+        CHECK_OK(rb_friction_eliminate_local(&p[k], &file.V, &file.R, file.s, &message));
         assert_int_equal(p[k].form, RB_FRICTION_LOCAL_SPARSE);
         put_dense(&p[k].Ws, W[k]);
     }
@@ -422,11 +422,11 @@ TEST(failing_allocations_leave_the_problem)
                 file.mu = file.q = NULL, file.W = (rb_sparse){0};
             }
             alloc_fail_after(count);
-            st = global ? rb_friction_eliminate(&p, &file.V, s.b, &heard)
-                        : rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &heard);
+            st = global ? rb_friction_eliminate(&p, &file.V, s.b, &message)
+                        : rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &message);
             alloc_succeed();
             assert_true(st == RB_OK || st == RB_ENOMEM);
-            CHECK_OK(rb_friction_problem_check(&p, &heard));
+            CHECK_OK(rb_friction_problem_check(&p, &message));
             rb_io_fclib_free(&file);
         }
         assert_true(count > 8 && count < 200);

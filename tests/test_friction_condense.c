@@ -99,7 +99,7 @@ TEST(bodies_that_meet_anywhere_are_condensed)
     for (int trial = 0; trial < 10; trial++) {
         OWNED(rb_friction_problem) p, local;
         make_bodies(&p);
-        CHECK_OK(rb_friction_condense(&p, &local, &heard));
+        CHECK_OK(rb_friction_condense(&p, &local, &message));
         to_dense(&p.K, K);
         to_dense(&p.H, H);
         to_dense(&local.Ws, W);
@@ -132,10 +132,10 @@ TEST(a_loose_body_is_told)
         for (int i = 0; i < sizes[b]; i++)
             for (int k = p.K.p[dof_of(b, i)]; k < p.K.p[dof_of(b, i) + 1]; k++)
                 p.K.x[k] = full;
-        CHECK_STATUS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR);
+        CHECK_STATUS(rb_friction_condense(&p, &local, &message), RB_SINGULAR);
         snprintf(words, sizeof words, "(nullity %d)", full ? sizes[b] - 1 : sizes[b]);
-        if (!strstr(heard.text, words))
-            fail_msg("body %d: %s, expected %s", b, heard.text, words);
+        if (!strstr(message.text, words))
+            fail_msg("body %d: %s, expected %s", b, message.text, words);
         rb_friction_problem_free(&p);
     }
 }

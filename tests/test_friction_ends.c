@@ -46,8 +46,8 @@ static void make_global(int d, rb_friction_problem *p)
     CHECK_OK(rb_sparse_from_dense(m, m, local.W, m, &p->K));
 }
 
-static rb_status solve(const char *name, const rb_friction_problem *p,
-                       const rb_friction_options *opt, rb_friction_info *info)
+static rb_status solve_named(const char *name, const rb_friction_problem *p,
+                             const rb_friction_options *opt, rb_friction_info *info)
 {
     static double r[LARGEST], u[LARGEST], v[LARGEST];
     return rb_friction_solve(name, p, opt, &(rb_friction_solution){r, u, v}, info);
@@ -73,7 +73,7 @@ TEST(without_time_every_solver_says_so)
             rb_friction_info info;
             if (!takes(&all[k], d))
                 continue;
-            const rb_status s = solve(all[k].name, &p, &opt, &info);
+            const rb_status s = solve_named(all[k].name, &p, &opt, &info);
             if (s != RB_INTERRUPTED)
                 fail_msg("%s, d = %d: %s", all[k].name, d, rb_status_text(s));
             assert_true(info.iters <= 1);
@@ -99,7 +99,7 @@ TEST(numbers_beyond_the_largest_are_not_solved)
             if (!takes(&all[k], d))
                 continue;
             opt.r0 = guess;
-            if (solve(all[k].name, &p, &opt, &info) == RB_OK)
+            if (solve_named(all[k].name, &p, &opt, &info) == RB_OK)
                 fail_msg("%s, d = %d: solved, %g", all[k].name, d, info.scaled);
         }
     }
@@ -129,12 +129,12 @@ TEST(sweeps_seldom_look_at_the_measure)
             p.q[c * d] = -1.0 - 0.001 * c;
         opt.progress = count_looks;
         opt.context = &looks;
-        CHECK_OK(solve("nsgs-ac", &p, &opt, &info));
+        CHECK_OK(solve_named("nsgs-ac", &p, &opt, &info));
         assert_true(info.iters > 300);
         CHECK_MAX(looks, 12 + info.iters / 200, "d = %d, %d sweeps", d, info.iters);
         looks = 0;
         opt.max_iters = 35;
-        solve("admm", &p, &opt, &info); /* every tenth, and at both ends */
+        solve_named("admm", &p, &opt, &info); /* every tenth, and at both ends */
         CHECK_MAX(looks, 3 + info.iters / 10, "d = %d, %d iterations", d, info.iters);
         opt.max_iters = 0;
     }
@@ -155,13 +155,13 @@ TEST(options_that_are_none_are_refused)
     double r[LARGEST], u[LARGEST];
     const rb_friction_solution at = {r, u, NULL};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        CHECK_STATUS(solve("nsgs-ac", &p, &bad[k], &info), RB_EINVAL);
+        CHECK_STATUS(solve_named("nsgs-ac", &p, &bad[k], &info), RB_EINVAL);
         assert_non_null(strstr(info.msg.text, "max_iters ="));
         CHECK_STATUS(rb_friction_handle_solve(handle, NULL, &bad[k], &at, NULL), RB_EINVAL);
     }
-    CHECK_STATUS(solve("lemke", &p, NULL, &info), RB_EINVAL);
+    CHECK_STATUS(solve_named("lemke", &p, NULL, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "in 2D only"));
-    CHECK_STATUS(solve("nobody", &p, NULL, &info), RB_EINVAL);
+    CHECK_STATUS(solve_named("nobody", &p, NULL, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "nobody"));
     rb_friction_handle_free(handle);
 }
@@ -259,12 +259,12 @@ TEST(damaged_matrices_are_named)
         default:
             whole.x[0] = INFINITY;
         }
-        CHECK_SAYS(rb_friction_problem_check(&p, &heard), RB_EINVAL, words[k]);
+        CHECK_SAYS(rb_friction_problem_check(&p, &message), RB_EINVAL, words[k]);
         p.H = whole;
         p.H.x[0] = first;
-        CHECK_OK(rb_friction_problem_check(&p, &heard));
+        CHECK_OK(rb_friction_problem_check(&p, &message));
         p.dofs = 0;
-        CHECK_SAYS(rb_friction_problem_check(&p, &heard), RB_EINVAL, "0 degrees of freedom");
+        CHECK_SAYS(rb_friction_problem_check(&p, &message), RB_EINVAL, "0 degrees of freedom");
         p.dofs = LARGEST;
     }
     rb_friction_problem_free(NULL);
@@ -288,19 +288,19 @@ TEST(damaged_vectors_are_named)
             char words[40];
             double *const whole = *all[k].x, right = whole[2];
             whole[2] = NAN;
-            CHECK_STATUS(rb_friction_problem_check(&p, &heard), RB_EINVAL);
+            CHECK_STATUS(rb_friction_problem_check(&p, &message), RB_EINVAL);
             snprintf(words, sizeof words, "%s: entry 3 is", all[k].name);
-            if (!strstr(heard.text, words))
-                fail_msg("%s, expected %s", heard.text, words);
+            if (!strstr(message.text, words))
+                fail_msg("%s, expected %s", message.text, words);
             whole[2] = right;
             *all[k].x = NULL;
-            CHECK_STATUS(rb_friction_problem_check(&p, &heard), RB_EINVAL);
+            CHECK_STATUS(rb_friction_problem_check(&p, &message), RB_EINVAL);
             snprintf(words, sizeof words, "%s is missing", all[k].name);
-            if (!strstr(heard.text, words))
-                fail_msg("%s, expected %s", heard.text, words);
+            if (!strstr(message.text, words))
+                fail_msg("%s, expected %s", message.text, words);
             *all[k].x = whole;
         }
-        CHECK_OK(rb_friction_problem_check(&p, &heard));
+        CHECK_OK(rb_friction_problem_check(&p, &message));
     }
 }
 
@@ -319,7 +319,8 @@ TEST(nearly_loose_bodies_are_not_condensed)
     rb_friction_problem local;
     CHECK_OK(rb_sparse_from_dense(2, 2, K, 2, &p.K));
     CHECK_OK(rb_sparse_from_dense(2, 2, H, 2, &p.H));
-    CHECK_SAYS(rb_friction_condense(&p, &local, &heard), RB_SINGULAR, "K is singular to rounding");
+    CHECK_SAYS(rb_friction_condense(&p, &local, &message), RB_SINGULAR,
+               "K is singular to rounding");
     rb_sparse_free(&p.K);
     rb_sparse_free(&p.H);
 }
@@ -341,7 +342,7 @@ TEST(constraints_are_redundant_but_for_rounding)
             }
             b[2] = 0.7 * b[0] - 1.3 * b[1] + 0.01 * contradicts;
             CHECK_OK(rb_sparse_from_dense(LARGEST, 3, G, LARGEST, &rows));
-            CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &heard),
+            CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &message),
                          contradicts ? RB_EINVAL : RB_OK);
             assert_int_equal(p.dofs, contradicts ? LARGEST : LARGEST - 2);
         }
@@ -475,7 +476,7 @@ TEST(what_does_not_roll_is_refused)
         p.H.cols -= k == 3;
         p.H.rows -= k == 4;
         p.K.cols -= k == 5;
-        CHECK_SAYS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &heard), RB_EINVAL,
+        CHECK_SAYS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &message), RB_EINVAL,
                    k < 6 ? "five columns of H" : "mu_r of contact");
         rb_friction_problem_free(&whole);
     }
@@ -491,7 +492,7 @@ TEST(wheels_without_stiffness_have_the_length_one)
         for (int a = 0; a < 5; a++) /* the normal; the slip; the turn */
             if ((k == 0 && a == 0) || (k == 1 && (a == 1 || a == 2)) || (k == 2 && a > 2))
                 p.K.x[a] = 0.0;
-        CHECK_OK(rb_friction_split_rolling(&p, mu_r, &heard));
+        CHECK_OK(rb_friction_split_rolling(&p, mu_r, &message));
         assert_int_equal(p.contacts, 2 * WHEELS);
         const double slip = 1.0 / 2.1 + 1.0 / 2.2, turn = 1.0 / 2.3 + 1.0 / 2.4;
         CHECK_REL(p.lengths[0], k ? 1.0 : sqrt(slip / turn), 1e-14, "length");

@@ -27,8 +27,8 @@ static const char cones[] = "4 2 0 4 4 4 4\n"
 static void read_whole(const char *text, rb_friction_file kind, rb_friction_problem *p)
 {
     put(text);
-    CHECK_OK(rb_friction_read_as(path, kind, p, &heard));
-    assert_string_equal(heard.text, "");
+    CHECK_OK(rb_friction_read_as(path, kind, p, &message));
+    assert_string_equal(message.text, "");
 }
 
 TEST(local_problems_come_from_text)
@@ -90,10 +90,10 @@ TEST(a_head_of_both_forms_is_followed_to_the_end)
     char text[300], wanted[1200];
     snprintf(text, sizeof text, "%s 99", full);
     put(text);
-    CHECK_STATUS(rb_friction_read(path, &p, &heard), RB_EFORMAT);
+    CHECK_STATUS(rb_friction_read(path, &p, &message), RB_EFORMAT);
     snprintf(wanted, sizeof wanted,
              "%s:5: after the last number: expected an integer from 0 to 1, got '99'", path);
-    assert_string_equal(heard.text, wanted);
+    assert_string_equal(message.text, wanted);
 }
 
 /* A cone ||x_T|| <= x_0 / slope becomes one of slope 1 by x_0 / slope in the place of
@@ -104,7 +104,7 @@ TEST(cones_get_the_slope_one)
                                2.0, 3.0, 9.0, 7.0, 4.0, 5.0, 7.0, 10.0};
     OWNED(rb_friction_soclcp_data) d;
     put(cones);
-    CHECK_OK(rb_friction_soclcp_read(path, &d, &heard));
+    CHECK_OK(rb_friction_soclcp_read(path, &d, &message));
     assert_int_equal(d.problem.n, 4);
     assert_int_equal(d.problem.cones, 2);
     assert_int_equal(d.problem.size[0], 3);
@@ -139,9 +139,9 @@ TEST(what_is_no_friction_problem_is_refused)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_friction_problem p;
         put(all[k].text);
-        CHECK_STATUS(rb_friction_read_as(path, all[k].kind, &p, &heard), RB_EFORMAT);
-        if (!strstr(heard.text, all[k].words) || !strstr(heard.text, path))
-            fail_msg("row %zu: %s", k, heard.text);
+        CHECK_STATUS(rb_friction_read_as(path, all[k].kind, &p, &message), RB_EFORMAT);
+        if (!strstr(message.text, all[k].words) || !strstr(message.text, path))
+            fail_msg("row %zu: %s", k, message.text);
         assert_null(p.mu);
     }
     static const struct {
@@ -153,7 +153,7 @@ TEST(what_is_no_friction_problem_is_refused)
     for (size_t k = 0; k < sizeof of_cones / sizeof *of_cones; k++) {
         rb_friction_soclcp_data d;
         put(of_cones[k].text);
-        CHECK_SAYS(rb_friction_soclcp_read(path, &d, &heard), RB_EFORMAT, of_cones[k].words);
+        CHECK_SAYS(rb_friction_soclcp_read(path, &d, &message), RB_EFORMAT, of_cones[k].words);
         assert_null(d.M);
     }
 }
@@ -177,13 +177,13 @@ TEST(problems_go_into_fclib_and_come_back)
         const int solved = k / 3;
         read_whole(texts[k % 3], RB_FRICTION_FILE_ANY, &p);
         const int is_global = p.form == RB_FRICTION_GLOBAL;
-        CHECK_OK(rb_friction_write(path, &p, solved ? &at : NULL, "title", &heard));
-        CHECK_OK(rb_io_fclib_read(path, &file, &heard));
+        CHECK_OK(rb_friction_write(path, &p, solved ? &at : NULL, "title", &message));
+        CHECK_OK(rb_io_fclib_read(path, &file, &message));
         assert_int_equal(file.global, is_global);
         check_vector("r", 2, file.r, solved ? r : NULL);
         check_vector("u", 2, file.u, solved ? u : NULL);
         check_vector("v", 3, file.v, solved && is_global ? v : NULL);
-        CHECK_OK(rb_friction_read(path, &back, &heard));
+        CHECK_OK(rb_friction_read(path, &back, &message));
         check_vector("mu", 1, back.mu, p.mu);
         check_vector("q", 2, back.q, p.q);
         check_vector("f", 3, back.f, p.f);
@@ -202,14 +202,14 @@ TEST(problems_go_into_fclib_and_come_back)
 static rb_status read_problem(void *context)
 {
     OWNED(rb_friction_problem) p;
-    return rb_friction_read_as(path, *(rb_friction_file *)context, &p, &heard);
+    return rb_friction_read_as(path, *(rb_friction_file *)context, &p, &message);
 }
 
 static rb_status read_cones(void *context)
 {
     OWNED(rb_friction_soclcp_data) d;
     (void)context;
-    return rb_friction_soclcp_read(path, &d, &heard);
+    return rb_friction_soclcp_read(path, &d, &message);
 }
 
 TEST(short_memory_is_reported)

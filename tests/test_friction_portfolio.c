@@ -89,7 +89,7 @@ TEST(the_first_member_costs_auto_nothing)
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         OWNED(rb_friction_problem) p;
         rb_friction_info first, whole;
-        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &message));
         SCRATCH double *r = rb_alloc((size_t)(p.dimension * p.contacts), 1);
         CHECK_OK(run("nsgs-aa", &p, r, &first));
         CHECK_OK(run("auto", &p, r, &whole));
@@ -105,8 +105,8 @@ TEST(newton_goes_on_where_the_sweeps_have_stalled)
 {
     OWNED(rb_friction_problem) p;
     rb_friction_info newton, whole;
-    CHECK_OK(
-        rb_friction_read(outside_data("siconos/fc3d/OneObject-i100000-499.hdf5.dat"), &p, &heard));
+    CHECK_OK(rb_friction_read(outside_data("siconos/fc3d/OneObject-i100000-499.hdf5.dat"), &p,
+                              &message));
     SCRATCH double *r = rb_alloc((size_t)(3 * p.contacts), 1);
     CHECK_OK(run("nsn-ac", &p, r, &newton));
     CHECK_OK(run("auto", &p, r, &whole));
@@ -120,7 +120,7 @@ TEST(auto_condenses_rigid_bodies_first)
     OWNED(rb_friction_problem) global, local;
     rb_friction_info of_global, of_local;
     packing("spheres 150 1 6 global", &global);
-    CHECK_OK(rb_friction_condense(&global, &local, &heard));
+    CHECK_OK(rb_friction_condense(&global, &local, &message));
     SCRATCH double *r = rb_alloc((size_t)(3 * global.contacts), 1);
     CHECK_OK(run("auto", &global, r, &of_global));
     CHECK_OK(run("auto", &local, r, &of_local));
@@ -136,7 +136,7 @@ TEST(auto_on_the_packings_it_lost_on)
     for (int k = 0; k < 2; k++) {
         OWNED(rb_friction_problem) p;
         rb_friction_info plain, fast;
-        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &message));
         compare(files[k], &p, 3.0);
         SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
         CHECK_OK(run("nsgs-ac", &p, r, &plain));
@@ -160,7 +160,7 @@ TEST(faint_contacts_do_not_hold_auto_up)
     for (int k = 0; k < 2; k++) {
         OWNED(rb_friction_problem) p;
         rb_friction_info info;
-        CHECK_OK(rb_friction_read(outside_data(rows[k].file), &p, &heard));
+        CHECK_OK(rb_friction_read(outside_data(rows[k].file), &p, &message));
         SCRATCH double *r = rb_alloc((size_t)(3 * p.contacts), 1);
         CHECK_OK(run("auto", &p, r, &info));
         assert_true(info.iters <= rows[k].most);
@@ -188,7 +188,7 @@ TEST(global_packings_condense_to_the_local_ones)
         for (int again = 0; again < 3; again++) {
             const double start = rb_seconds();
             rb_friction_problem_free(&p);
-            CHECK_OK(rb_friction_condense(&global, &p, &heard));
+            CHECK_OK(rb_friction_condense(&global, &p, &message));
             condense = fmin(condense, rb_seconds() - start);
             CHECK_OK(run("auto", &p, r, &info));
             solve = fmin(solve, info.seconds);
@@ -291,7 +291,7 @@ TEST(the_winner_hands_over_all_it_has)
             const double size = rb_norm_inf((size_t)n, rest);
             rb_sparse_apply(-1.0, &p.K, v, 1.0, rest);
             CHECK_MAX(rb_norm_inf((size_t)n, rest), 1e-12 * size, "forces of case %d", (int)k);
-            CHECK_OK(rb_friction_condense(&p, &condensed, &heard));
+            CHECK_OK(rb_friction_condense(&p, &condensed, &message));
         }
         const rb_friction_problem *local = global ? &condensed : &p;
         CHECK_MAX(violation(local, r), 1e-7, "case %d", (int)k);

@@ -106,7 +106,7 @@ TEST(reactions_that_are_proved_are_solutions)
             for (int i = 0; i < p.m; i++)
                 r[i] = p.r[i] * (1.0 + off[start] * uniform_from(&seed));
             rb_friction_proof proof;
-            const rb_status s = rb_friction_prove_zones(&problem, r, &proof, &heard);
+            const rb_status s = rb_friction_prove_zones(&problem, r, &proof, &message);
             assert_int_equal(s, proof.proved ? RB_OK : RB_UNDECIDED);
             tried++;
             if (!proof.proved) {
@@ -134,7 +134,7 @@ TEST(reactions_that_are_proved_are_solutions)
 /* Where a contact lies on the border between stick and slip no zone is strict. */
 TEST(borders_between_zones_are_not_proved)
 {
-    int seen = 0;
+    int counted = 0;
     for (int number = 0; number < 200; number++) {
         static posed p;
         pose(number, 1, &p);
@@ -142,11 +142,11 @@ TEST(borders_between_zones_are_not_proved)
             continue;
         const rb_friction_problem problem = as_problem(&p);
         rb_friction_proof proof;
-        CHECK_STATUS(rb_friction_prove_zones(&problem, p.r, &proof, &heard), RB_UNDECIDED);
+        CHECK_STATUS(rb_friction_prove_zones(&problem, p.r, &proof, &message), RB_UNDECIDED);
         CHECK_MAX(proof.nearby, 4e-15, "problem %d is exact", number);
-        seen++;
+        counted++;
     }
-    assert_true(seen > 20);
+    assert_true(counted > 20);
 }
 
 /* The same contact twice shares its force in any way: not isolated, not proved, but exact. */
@@ -157,9 +157,9 @@ TEST(redundant_contacts_are_exact_for_data_nearby)
     const rb_friction_problem problem = {
         .form = RB_FRICTION_LOCAL_DENSE, .dimension = 2, .contacts = 2, .mu = mu, .W = W, .q = q};
     rb_friction_proof proof;
-    CHECK_STATUS(rb_friction_prove_zones(&problem, r, &proof, &heard), RB_UNDECIDED);
+    CHECK_STATUS(rb_friction_prove_zones(&problem, r, &proof, &message), RB_UNDECIDED);
     CHECK_MAX(proof.nearby, 1e-15, "data nearby");
-    CHECK_STATUS(rb_friction_prove_zones(&problem, bad, &proof, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_friction_prove_zones(&problem, bad, &proof, &message), RB_EINVAL);
 }
 
 /* A contact whose row reads no reaction and whose gap is zero touches exactly. */
@@ -170,7 +170,7 @@ TEST(contacts_that_touch_exactly_are_not_isolated)
     const rb_friction_problem problem = {
         .form = RB_FRICTION_LOCAL_DENSE, .dimension = 2, .contacts = 2, .mu = mu, .W = W, .q = q};
     rb_friction_proof proof;
-    CHECK_OK(rb_friction_prove_zones(&problem, r, &proof, &heard));
+    CHECK_OK(rb_friction_prove_zones(&problem, r, &proof, &message));
     assert_int_equal(proof.touching, 1);
     assert_false(proof.isolated);
 }

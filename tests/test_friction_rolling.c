@@ -130,8 +130,8 @@ static rb_status solve_row(const row_of_balls *s, double unit, const char *solve
     OWNED(rb_friction_problem) p;
     rb_friction_options opt = rb_friction_defaults();
     as_file(s, unit, &file);
-    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &heard));
-    CHECK_OK(rb_friction_read(path, &p, &heard));
+    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &message));
+    CHECK_OK(rb_friction_read(path, &p, &message));
     assert_int_equal(p.contacts, 2 * s->contacts);
     opt.tol = 1e-9;
     const rb_status st =
@@ -235,13 +235,13 @@ TEST(constraints_go_with_rolling_friction)
     CHECK_OK(rb_sparse_from_triplets(
         &(rb_triplets){.rows = 6, .cols = 3, .nz = 3, .row = turns, .col = each, .x = one},
         &file.G));
-    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &heard));
-    CHECK_OK(rb_friction_read(path, &p, &heard));
+    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &message));
+    CHECK_OK(rb_friction_read(path, &p, &message));
     CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL));
     rb_friction_unite_rolling(&p, r, u, r, u);
     CHECK_ABS(fabs(r[1]), 0.1, 1e-7, "it slides");
     CHECK_ABS(hypot(u[3], u[4]), 0.0, 1e-9, "and does not turn");
-    CHECK_STATUS(rb_friction_write(path, &p, NULL, "", &heard), RB_EINVAL);
+    CHECK_STATUS(rb_friction_write(path, &p, NULL, "", &message), RB_EINVAL);
 }
 
 /* Two contacts stand for a rolling one and carry the same pressure: what they do together
@@ -270,7 +270,7 @@ TEST(the_program_tells_five_entries_per_contact)
     OWNED(rb_io_fclib) file;
     make_row(3, 0.5, 0.05, 5, &s);
     as_file(&s, 1.0, &file);
-    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &heard));
+    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &message));
     snprintf(command, sizeof command, "%s/rollbem friction --solution %s", build, path);
     FILE *out = popen(command, "r");
     while (fgets(line, sizeof line, out))
@@ -294,12 +294,12 @@ TEST(bad_problems_are_refused)
     make_row(1, 0.1, 0.01, 1, &s);
     as_file(&s, 1.0, &file);
     file.mu_r[0] = -1.0;
-    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &heard));
-    CHECK_SAYS(rb_friction_read(path, &p, &heard), RB_EFORMAT, "mu_r of contact 1 is -1");
+    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &message));
+    CHECK_SAYS(rb_friction_read(path, &p, &message), RB_EFORMAT, "mu_r of contact 1 is -1");
     file.mu_r[0] = 0.1;
     file.spacedim = 3; /* six columns of H are no multiple */
-    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &heard));
-    CHECK_SAYS(rb_friction_read(path, &p, &heard), RB_EFORMAT, "spacedim is 3, expected 5");
+    CHECK_OK(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &message));
+    CHECK_SAYS(rb_friction_read(path, &p, &message), RB_EFORMAT, "spacedim is 3, expected 5");
     rb_io_fclib_free(&file);
     for (int count = 0, done = 0; !done; count++) {
         assert_true(count < 100);
@@ -315,7 +315,7 @@ TEST(bad_problems_are_refused)
                                   .H = file.H};
         file.mu = file.f = file.w = NULL, file.M = file.H = (rb_sparse){0};
         alloc_fail_after(count);
-        const rb_status st = rb_friction_split_rolling(&p, file.mu_r, &heard);
+        const rb_status st = rb_friction_split_rolling(&p, file.mu_r, &message);
         alloc_succeed();
         assert_true(st == RB_OK || st == RB_ENOMEM);
         assert_int_equal(p.dimension, st == RB_OK ? 3 : 5);

@@ -290,7 +290,7 @@ static void solve_outside(const char *file)
     rb_friction_info info;
     double r[900], u[900];
     rb_friction_errors error;
-    CHECK_OK(rb_friction_read(outside_data(file), &p, &heard));
+    CHECK_OK(rb_friction_read(outside_data(file), &p, &message));
     CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info));
     CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &error));
     CHECK_MAX(error.residual, 1e-8, "%s", file);
@@ -327,7 +327,7 @@ TEST(the_soclcp_file_is_solved)
     rb_friction_info info;
     double x[9], y[9];
     CHECK_OK(rb_friction_soclcp_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &d,
-                                     &heard));
+                                     &message));
     CHECK_OK(rb_friction_soclcp(&d.problem, NULL, x, y, &info));
     for (int i = 0; i < 9; i++)
         CHECK_ABS(x[i] / (i % 3 ? 1.0 : d.tau[i / 3]), want[i % 3], 1e-6, "x[%d]", i);
@@ -336,14 +336,14 @@ TEST(the_soclcp_file_is_solved)
 TEST(other_text_files_are_refused)
 {
     rb_friction_problem p;
-    CHECK_SAYS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &heard), RB_EFORMAT,
+    CHECK_SAYS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &message), RB_EFORMAT,
                "rollbem lcp");
     CHECK_STATUS(
-        rb_friction_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &p, &heard),
+        rb_friction_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &p, &message),
         RB_EFORMAT);
-    CHECK_STATUS(rb_friction_read("/nowhere", &p, &heard), RB_ENOENT);
+    CHECK_STATUS(rb_friction_read("/nowhere", &p, &message), RB_ENOENT);
     CHECK_STATUS(rb_friction_read_as(outside_data("fclib/CubeH8.hdf5"), RB_FRICTION_FILE_SICONOS,
-                                     &p, &heard),
+                                     &p, &message),
                  RB_EFORMAT);
 }
 

@@ -354,7 +354,7 @@ TEST(every_solver_on_files_in_other_units)
                                         "packings/scale_small.dat"};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         OWNED(rb_friction_problem) p;
-        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &heard));
+        CHECK_OK(rb_friction_read(outside_data(files[k]), &p, &message));
         same_in_other_units(files[k], &p, 1e-8);
     }
 }

@@ -67,10 +67,10 @@ static void stress_of(const rb_rolling_case *rc, int load, int of_b, int n, cons
     rb_rolling_solution s;
     rb_rolling_mirror *mirror = NULL;
     CHECK_OK(rb_rolling_model_of_nodes(rc, loads[load].n, loads[load].x, loads[load].p,
-                                       loads[load].q, &model, &s, &heard));
+                                       loads[load].q, &model, &s, &message));
     if (of_b)
-        CHECK_OK(rb_rolling_mirror_create(&model, &mirror, &heard));
-    CHECK_OK(rb_rolling_stress_at(of_b ? &mirror->model : &model, n, xy, to, &heard));
+        CHECK_OK(rb_rolling_mirror_create(&model, &mirror, &message));
+    CHECK_OK(rb_rolling_stress_at(of_b ? &mirror->model : &model, n, xy, to, &message));
     if (of_b)
         rb_rolling_mirror_stress(n, to, NULL);
     rb_rolling_mirror_free(mirror);

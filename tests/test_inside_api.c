@@ -59,16 +59,16 @@ TEST(values_from_elsewhere_resolve_a_table)
     rb_option other = {.name = "c", .excludes = 4};
 
     options[0].kind = options[1].kind = RB_OPTION_NUMBER;
-    CHECK_OK(rb_option_resolve(&set, &how, &heard));
-    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard));
+    CHECK_OK(rb_option_resolve(&set, &how, &message));
+    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &message));
     assert_true(target.a == 1.0 && target.b == 2.0);
     other.excludes = 2;
-    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard));
+    CHECK_OK(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &message));
     assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
     other.excludes = 1;
-    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &heard),
+    CHECK_STATUS(rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &message),
                  RB_EINVAL);
-    assert_string_equal(heard.text, "--a: no");
+    assert_string_equal(message.text, "--a: no");
 }
 
 RUN_TESTS(NULL, NULL)

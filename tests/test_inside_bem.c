@@ -302,9 +302,10 @@ TEST(materials_have_their_limits)
                {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        CHECK_STATUS(rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &heard),
-                     all[k].wanted);
-        assert_true((heard.text[0] != 0) == (all[k].wanted != RB_OK));
+        CHECK_STATUS(
+            rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &message),
+            all[k].wanted);
+        assert_true((message.text[0] != 0) == (all[k].wanted != RB_OK));
     }
 }
 
@@ -557,18 +558,18 @@ static double worst_column(const double *K, int kept, const int *order, const do
 TEST(the_rank_is_found)
 {
     double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
-    int rank, order[COLUMNS], seen[COLUMNS] = {0};
+    int rank, order[COLUMNS], times[COLUMNS] = {0};
 
     plant(3.0, K);
     decompose(K, -1, &rank, order, T);
     assert_int_equal(rank, RANK);
     CHECK_MAX(worst_column(K, rank, order, T), 1e-12, "all columns");
     for (int i = 0; i < COLUMNS; i++) {
-        seen[order[i]]++;
+        times[order[i]]++;
         assert_true(i == 0 || i == rank || order[i] > order[i - 1]);
     }
     for (int i = 0; i < COLUMNS; i++)
-        assert_int_equal(seen[i], 1);
+        assert_int_equal(times[i], 1);
 }
 
 /* Below the tolerance nothing counts; more may be kept than needed. */

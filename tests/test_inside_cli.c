@@ -42,14 +42,14 @@ TEST(every_status_has_its_exit_code)
 }
 
 /* cli_fail's line: on standard error, which goes to a file here. */
-static const char *printed(cli_exit (*say)(void), cli_exit wanted)
+static const char *printed(cli_exit (*print)(void), cli_exit wanted)
 {
     static char text[10000];
     FILE *file = NOT_NULL(tmpfile());
     fflush(stderr);
     FILE *old = stderr;
     stderr = file;
-    const cli_exit code = say();
+    const cli_exit code = print();
     stderr = old;
     rewind(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';

@@ -132,8 +132,8 @@ TEST(products_follow_friction)
         use_products(&p, &by);
         CHECK_OK(rb_contact_state_alloc(of.n, &s));
         assert_true(rb_contact_newton(&p, 0, &s) > 0);
-        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &heard);
-        check_outcome(&with, &s, status, &heard, &o);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &message);
+        check_outcome(&with, &s, status, &message, &o);
         assert_true(o.solved == 1 || (k == 2 && status == RB_MAXITER));
         CHECK_ABS(p.mu, of.mu, 0.0, "friction");
         for (int i = 0; i < of.n; i++)
@@ -274,12 +274,12 @@ TEST(cones_move_as_the_problem_does)
     } refused[] = {{"it", "'it'"}, {NULL, "''"}};
     for (int k = 0; k < 2; k++) {
         options.cone_solver = (rb_contact_cone_solver){refused[k].name, NULL};
-        CHECK_SAYS(rb_contact_cone_solve(&p, &options, &s, &heard), RB_EINVAL, refused[k].said);
+        CHECK_SAYS(rb_contact_cone_solve(&p, &options, &s, &message), RB_EINVAL, refused[k].said);
     }
     options.cone_solver = (rb_contact_cone_solver){"it", number_tractions};
-    CHECK_OK(rb_contact_cone_solve(&p, &options, &s, &heard));
+    CHECK_OK(rb_contact_cone_solve(&p, &options, &s, &message));
     assert_int_equal(s.iterations, 8);
-    CHECK_OK(rb_contact_cone_create(&p, s.delta, s.xi, &cone, &heard));
+    CHECK_OK(rb_contact_cone_create(&p, s.delta, s.xi, &cone, &message));
     for (int i = 0; i < of.n; i++) {
         double gap, slip, u[2] = {cone.q[2 * i], cone.q[2 * i + 1]};
         move(&p, &s, i, &gap, &slip);

@@ -123,16 +123,16 @@ TEST(steps_are_problems_for_every_solver)
     rb_fem_wall_step step;
     o.press = 3;
     o.shear = 3;
-    CHECK_OK(rb_fem_wall_create(&o, &wall, &heard));
+    CHECK_OK(rb_fem_wall_create(&o, &wall, &message));
     assert_int_equal(rb_fem_wall_steps(wall), 7);
     for (int k = 0; k < 7; k++) {
-        CHECK_OK(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &heard));
+        CHECK_OK(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &message));
         CHECK_REL(step.compression, 10e3 * fmin(k, 3), 1e-14, "step %d", k);
         assert_int_equal(step.stick + step.slip + step.separated, rb_fem_wall_contacts(wall));
     }
     CHECK_REL(step.drift, 3e-5, 1e-12, "drift");
     assert_true(step.shear > 500.0 && step.shear < 0.53 * 30e3);
-    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &message), RB_EINVAL);
     const size_t m = 3 * (size_t)rb_fem_wall_contacts(wall);
     SCRATCH double *r = rb_alloc(m, 2), *u = rb_alloc(m, 2);
     for (int k = 2; k < 7; k += 4) {

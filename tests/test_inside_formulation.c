@@ -295,7 +295,7 @@ TEST(coefficients_forget_from_the_leading_edge_on)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) solution;
         double mu[100], before[100];
-        CHECK_OK(rb_rolling_solve_model(&rc, &model, &solution, &heard));
+        CHECK_OK(rb_rolling_solve_model(&rc, &model, &solution, &message));
         rb_contact_state *s = &model.state;
         const double *e_T = model.problem.e_T, rest = falling_mu(&rc, 0.0);
         for (int i = 0; i < s->n; i++) {
@@ -307,7 +307,7 @@ TEST(coefficients_forget_from_the_leading_edge_on)
             case_of_model(&model)->friction.memory = k ? 0.01 : 0.0;
             case_of_model(&model)->friction.memory_slip = 15.0;
             model.carried.mu = k == 2 ? before : NULL;
-            CHECK_OK(rb_rolling_law_coefficients(&model, mu, &heard));
+            CHECK_OK(rb_rolling_law_coefficients(&model, mu, &message));
             double upstream = rest;
             for (int i = s->n - 1; i >= 0; i--) {
                 const double v = 10.0 * (i % 5), now = falling_mu(&rc, v);
@@ -375,7 +375,7 @@ TEST(newtons_method_ends_with_its_problems)
         int left = most[k];
         for (int i = 0; i < model.problem.n; i++)
             model.problem.bound[i] *= i % 2 ? 0.9 : 1.0;
-        CHECK_STATUS(rb_rolling_law_newton(&model, 0.0, &left, &heard), RB_MAXITER);
+        CHECK_STATUS(rb_rolling_law_newton(&model, 0.0, &left, &message), RB_MAXITER);
         assert_int_equal(left, -1);
     }
 }

@@ -19,7 +19,7 @@ static rb_bem_mesh wheel(rb_bem_support support, double half, int outer)
     rb_bem_mesh mesh;
     for (int i = 0; i < CONTACT + 2; i++)
         ends[i] = half * (2.0 * i / CONTACT - 1.0);
-    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, CONTACT, ends, &mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, CONTACT, ends, &mesh, &message));
     return mesh;
 }
 
@@ -154,9 +154,9 @@ TEST(singular_systems_are_refused)
     OWNED(rb_bem_mesh) mesh = plate(-1.3);
     for (int dense = 0; dense < 2; dense++) {
         rb_bem_system *system;
-        CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, dense, &system, &heard), RB_SINGULAR);
+        CHECK_STATUS(rb_bem_system_create_as(&mesh, steel, dense, &system, &message), RB_SINGULAR);
         assert_null(system);
-        assert_non_null(strstr(heard.text, "singular"));
+        assert_non_null(strstr(message.text, "singular"));
     }
 }
 
@@ -167,9 +167,9 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
 {
     held_system *system;
     OWNED(rb_bem_flexibility) f;
-    CHECK_OK(rb_bem_system_create_as(mesh, material, dense, &system, &heard));
+    CHECK_OK(rb_bem_system_create_as(mesh, material, dense, &system, &message));
     CHECK_OK((subtracted ? rb_bem_condense_subtracted
-                         : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard));
+                         : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, &message));
     CHECK_OK(rb_bem_flexibility_matrix(&f, F, 2 * (CONTACT + 1)));
 }
 
@@ -258,13 +258,13 @@ TEST(long_boundaries_are_solved)
     assert_true(u && t && mesh.n >= RB_BEM_HIERARCHICAL);
     for (int k = 0; k < 2 * CONTACT; k++)
         load[k] = 1.0 + sin(k);
-    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &heard));
+    CHECK_OK(rb_bem_system_create(&mesh, steel, &system, &message));
     assert_true(isnan(rb_bem_system_rcond(system)));
     CHECK_OK(rb_bem_system_solve(system, load, u, t));
     check_identity(&mesh, u, t);
 
     /* the condensed flexibility says the same of the contact */
-    CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard));
+    CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &message));
     double r[2 * CONTACT], w[2 * CONTACT + 2];
     for (int j = 0; j < CONTACT; j++) {
         r[j] = load[2 * j + 1];

@@ -28,8 +28,8 @@ typedef struct {
 static pressed press(const rb_rolling_case *rc, double from, double to)
 {
     pressed d;
-    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, from, to, &d.mesh, &heard));
-    CHECK_OK(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, from, to, &d.mesh, &message));
+    CHECK_OK(rb_rolling_bodies_create(rc, NULL, &d.mesh, &d.bodies, &message));
     const int n = d.mesh.n;
     d.p = rb_alloc((size_t)n, 2);
     d.q = d.p + n;
@@ -532,7 +532,7 @@ TEST(what_has_yielded_rides_along)
     set(&rc,
         "formulation transient creep-ratio 1.5 distance 1 steps 16 interlayer-tangential 1e-6");
     rc.yield_stress = 0.05 * rb_rolling_derive(&rc).stress;
-    CHECK_OK(rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &message));
     assert_true(most > 0.0);
     assert_true(h.step < 0.7 * model.bodies.f.h[0]);
 }

@@ -56,13 +56,13 @@ TEST(a_child_answers_or_is_located)
                {ENDS, RB_ENOMEM, "it: out of memory"}};
     char *bytes;
     size_t size;
-    CHECK_OK(in_child(ANSWERS, &bytes, &size, &heard));
+    CHECK_OK(in_child(ANSWERS, &bytes, &size, &message));
     assert_int_equal(size, strlen("an answer"));
     assert_memory_equal(bytes, "an answer", size);
     free(bytes);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        CHECK_STATUS(in_child(bad[k].what, &bytes, &size, &heard), bad[k].status);
-        assert_string_equal(heard.text, bad[k].words);
+        CHECK_STATUS(in_child(bad[k].what, &bytes, &size, &message), bad[k].status);
+        assert_string_equal(message.text, bad[k].words);
         assert_null(bytes);
     }
 }
@@ -82,16 +82,16 @@ TEST(a_child_without_means_is_told)
         const int next = dup(0);
         close(next);
         fail_call(all[k].call, all[k].error, 1);
-        CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &heard), RB_ENOMEM);
+        CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &message), RB_ENOMEM);
         assert_true(calls_succeed());
-        assert_string_equal(heard.text, all[k].words);
+        assert_string_equal(message.text, all[k].words);
         assert_null(bytes);
         const int after = dup(0);
         close(after);
         assert_int_equal(after, next); /* no descriptor is left open */
     }
     fail_call("waitpid", EINTR, 1);
-    CHECK_OK(in_child(ANSWERS, &bytes, &size, &heard));
+    CHECK_OK(in_child(ANSWERS, &bytes, &size, &message));
     assert_true(calls_succeed());
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* nobody is left to wait for */
 }
@@ -103,7 +103,7 @@ TEST(a_child_is_quiet)
     struct stat st;
     const int own = dup(2), file = open(path, O_WRONLY | O_TRUNC);
     dup2(file, 2);
-    const rb_status s = in_child(IS_LOUD, &bytes, &size, &heard);
+    const rb_status s = in_child(IS_LOUD, &bytes, &size, &message);
     dup2(own, 2);
     close(own);
     close(file);

@@ -133,10 +133,10 @@ TEST(a_part_of_a_picture_is_none)
         {RB_REPORT_SVG, ":", "printf '<?xml <svg> more </svg>'"}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         FILE *out = tmpfile();
-        CHECK_SAYS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &heard), RB_EWRITE,
+        CHECK_SAYS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &message), RB_EWRITE,
                    "a part of the picture only");
         assert_int_equal(ftell(out), 0);
-        CHECK_OK(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &heard));
+        CHECK_OK(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &message));
         assert_true(ftell(out) > 20);
         fclose(out);
     }
@@ -211,7 +211,7 @@ TEST(gnuplot_that_fails_is_told)
                  "a part of the picture"}};
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
         FILE *out = tmpfile();
-        CHECK_SAYS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &heard), ends[k].status,
+        CHECK_SAYS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &message), ends[k].status,
                    ends[k].part);
         assert_int_equal(ftell(out), 0);
         fclose(out);
@@ -256,7 +256,7 @@ TEST(gnuplot_has_a_time_limit)
 {
     FILE *out = tmpfile();
     const double start = rb_seconds();
-    CHECK_SAYS(draw_by("exec sleep 20", 0.2, RB_REPORT_SVG, out, &heard), RB_EHELPER,
+    CHECK_SAYS(draw_by("exec sleep 20", 0.2, RB_REPORT_SVG, out, &message), RB_EHELPER,
                "longer than 0.2 s");
     CHECK_MAX(rb_seconds() - start, 5.0, "seconds");
     fclose(out);
@@ -272,7 +272,7 @@ TEST(gnuplot_inherits_no_descriptor)
                      "    if [ -e $fd ]; then echo inherited $fd >&2; exit 1; fi\n"
                      "done\n"
                      "printf '<?xml <svg> more </svg>'",
-                     20.0, RB_REPORT_SVG, out, &heard));
+                     20.0, RB_REPORT_SVG, out, &message));
     close(foreign);
     fclose(out);
 }

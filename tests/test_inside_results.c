@@ -107,12 +107,12 @@ TEST(a_track_is_refused_where_heat_runs_along)
     OWNED(rb_arena) memory = {0};
     rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
     rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0}; /* V a/(2 k) = 25 a */
-    CHECK_OK(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &heard));
+    CHECK_OK(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &message));
     assert_int_equal(track.rows, 1);
-    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 0.399, &memory, &track, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 0.399, &memory, &track, &message), RB_EINVAL,
                "V a/(2 diffusivity) >= 10");
     rc.heat_b = (rb_rolling_heat){400.0, 4.0, 20.0};
-    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &message), RB_EINVAL);
 }
 
 /* Equal temperatures beside the warmest element have no vertex. */
@@ -199,7 +199,7 @@ TEST(tracks_longer_than_memory_are_refused)
     OWNED(rb_arena) memory = {0};
     rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
     rc.heat_a = rc.heat_b = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 1.0, &memory, &track, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 1.0, &memory, &track, &message), RB_EINVAL,
                "the heat of steps");
 }
 

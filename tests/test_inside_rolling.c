@@ -282,11 +282,11 @@ static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, d
 {
     rb_rolling_model model;
     rb_rolling_mesh mesh;
-    CHECK_OK(rb_rolling_model_begin(rc, NULL, &model, &heard));
-    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &heard));
-    const rb_status s = rb_rolling_model_build(&model, &mesh, &heard);
+    CHECK_OK(rb_rolling_model_begin(rc, NULL, &model, &message));
+    CHECK_OK(rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, &message));
+    const rb_status s = rb_rolling_model_build(&model, &mesh, &message);
     if (s != RB_OK && s != RB_ZONE)
-        fail_msg("%s", heard.text);
+        fail_msg("%s", message.text);
     return model;
 }
 

@@ -59,20 +59,20 @@ TEST(coarser_runs_have_half_and_seven_tenths)
 TEST(too_few_elements_cannot_be_halved)
 {
     rb_rolling_case rc = carter_case(12);
-    CHECK_OK(rb_rolling_error_check(&rc, &heard));
+    CHECK_OK(rb_rolling_error_check(&rc, &message));
     rc.contact_elements = 11;
-    CHECK_SAYS(rb_rolling_error_check(&rc, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_error_check(&rc, &message), RB_EINVAL,
                "expected 12 contact elements or more, got 11");
     rc.contact_elements = 12;
     rc.outer_elements = 15; /* nothing to a half-plane */
-    CHECK_OK(rb_rolling_error_check(&rc, &heard));
+    CHECK_OK(rb_rolling_error_check(&rc, &message));
     rc.a.support = RB_BEM_HUB;
-    CHECK_SAYS(rb_rolling_error_check(&rc, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_error_check(&rc, &message), RB_EINVAL,
                "expected 16 outer elements or more, got 15");
     rc.outer_elements = 16;
-    CHECK_OK(rb_rolling_error_check(&rc, &heard));
+    CHECK_OK(rb_rolling_error_check(&rc, &message));
     rc.outer_elements = 0;
-    CHECK_OK(rb_rolling_error_check(&rc, &heard));
+    CHECK_OK(rb_rolling_error_check(&rc, &message));
 }
 
 TEST(the_power_of_an_edge_is_that_of_a_root)
@@ -92,7 +92,7 @@ static void check_bars(const rb_rolling_case *rc)
 {
     rb_rolling_solution own, run[2];
     rb_rolling_errors e;
-    CHECK_OK(rb_rolling_solve_with_errors(rc, &own, &e, &heard));
+    CHECK_OK(rb_rolling_solve_with_errors(rc, &own, &e, &message));
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
         run[k] = solved(&coarser);
@@ -116,7 +116,7 @@ static void check_bars(const rb_rolling_case *rc)
         {RB_SCALE_STRAIN, rounding * a / R},
         {RB_SCALE_WORK, rounding * P * a / R},
         {RB_SCALE_ELEMENT, h}};
-    int seen = 0;
+    int counted = 0;
     for (int j = 0; j < rb_rolling_solution_scalars.n; j++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[j];
         const double v[] = {rb_rolling_number(r, &run[0]), rb_rolling_number(r, &run[1])};
@@ -126,12 +126,12 @@ static void check_bars(const rb_rolling_case *rc)
                 continue;
             const double bar = rb_rolling_contact_error(v, value) + scales[k].least;
             CHECK_REL(rb_rolling_number(r, &e.scalar), bar, 1e-9, "%s", r->name);
-            seen++;
+            counted++;
         }
         if (r->error_bar == RB_SCALE_NONE && r->kind != RB_RESULT_WHOLE)
             assert_true(isnan(rb_rolling_number(r, &e.scalar)));
     }
-    assert_true(seen >= 12);
+    assert_true(counted >= 12);
     for (int k = 0; k < 2; k++)
         rb_rolling_solution_free(&run[k]);
     rb_rolling_solution_free(&own);
@@ -154,13 +154,13 @@ TEST(a_history_has_bars_of_its_steps)
     rb_rolling_case rc = with(carter_case(24), "formulation transient creep-ratio nan load nan");
     rb_rolling_model model;
     rb_rolling_history h, run[2];
-    CHECK_OK(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, &message));
     rb_rolling_model_free(&model);
     assert_non_null(h.errors);
     assert_int_equal(h.errors->n, h.n);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(&rc, k);
-        CHECK_OK(rb_rolling_history_run(&coarser, &program, NULL, &model, &run[k], &heard));
+        CHECK_OK(rb_rolling_history_run(&coarser, &program, NULL, &model, &run[k], &message));
         rb_rolling_model_free(&model);
     }
     for (int i = 0; i < 2; i++) { /* at rest: the same steps */
@@ -184,8 +184,8 @@ TEST(a_history_has_bars_of_its_steps)
     rb_rolling_case memory = carter_case(24);
     const rb_rolling_program timed = {.n = 2, .time = distance, .load = load};
     set(&memory, "formulation static creep-ratio nan relaxation-time 1 relaxation-ratio 0.5");
-    CHECK_SAYS(rb_rolling_history_with_errors(&memory, &timed, NULL, &model, &h, &heard), RB_EINVAL,
-               "a history in time has no error bars");
+    CHECK_SAYS(rb_rolling_history_with_errors(&memory, &timed, NULL, &model, &h, &message),
+               RB_EINVAL, "a history in time has no error bars");
     rb_rolling_history_free(&h);
 }
 
@@ -198,14 +198,14 @@ TEST(nothing_is_halved_below_its_least)
     rb_rolling_curve curve, bars;
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
-    CHECK_STATUS(rb_rolling_error_check(&rc, &heard), RB_EINVAL);
-    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, NULL, &errors, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_error_check(&rc, &message), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, NULL, &errors, &message), RB_EINVAL);
     assert_true(isnan(errors.scalar.normal_load));
     CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2, RB_UNITS_MM},
-                                              NULL, NULL, &curve, &bars, &heard),
+                                              NULL, NULL, &curve, &bars, &message),
                  RB_EINVAL);
     set(&rc, "formulation transient distance 1");
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &message), RB_EINVAL);
 }
 
 /* ---- Starts from coarse solutions -------------------------------------------------- */

@@ -61,9 +61,9 @@ TEST(every_storage_gives_the_same_lcp)
         OWNED(rb_io_lcp) p;
         rb_io_siconos_kind kind;
         put(texts[k]);
-        CHECK_OK(rb_io_siconos_guess(path, &kind, &heard));
+        CHECK_OK(rb_io_siconos_guess(path, &kind, &message));
         assert_int_equal(kind, RB_IO_SICONOS_LCP);
-        CHECK_OK(rb_io_siconos_read_lcp(path, &p, &heard));
+        CHECK_OK(rb_io_siconos_read_lcp(path, &p, &message));
         assert_int_equal(p.n, 2);
         CHECK_ABS(p.q[0], -5.0, 0.0, "q");
         CHECK_ABS(p.q[1], -6.0, 0.0, "q");
@@ -160,7 +160,7 @@ static void put_second(const char *text)
 static rb_status read_lcp(void)
 {
     OWNED(rb_io_lcp) p;
-    const rb_status s = rb_io_siconos_read_lcp(path, &p, &heard);
+    const rb_status s = rb_io_siconos_read_lcp(path, &p, &message);
     if (s != RB_OK)
         assert_null(p.q);
     return s;
@@ -169,7 +169,7 @@ static rb_status read_lcp(void)
 static rb_status read_any_lcp(void)
 {
     OWNED(rb_io_lcp) p;
-    const rb_status s = rb_io_lcp_read(path, NULL, &p, &heard);
+    const rb_status s = rb_io_lcp_read(path, NULL, &p, &message);
     if (s != RB_OK)
         assert_null(p.q);
     return s;
@@ -178,13 +178,13 @@ static rb_status read_any_lcp(void)
 static rb_status read_friction(void)
 {
     OWNED(rb_io_friction) p;
-    return rb_io_siconos_read_friction(path, 0, &p, &heard);
+    return rb_io_siconos_read_friction(path, 0, &p, &message);
 }
 
 static rb_status read_soclcp(void)
 {
     OWNED(rb_io_soclcp) p;
-    return rb_io_siconos_read_soclcp(path, &p, &heard);
+    return rb_io_siconos_read_soclcp(path, &p, &message);
 }
 
 /* One contact in space on three of four degrees of freedom, as Siconos writes it. */
@@ -219,28 +219,28 @@ TEST(global_friction_problems)
 static rb_status read_global(void)
 {
     OWNED(rb_io_friction) g;
-    return rb_io_siconos_read_friction(path, 1, &g, &heard);
+    return rb_io_siconos_read_friction(path, 1, &g, &message);
 }
 
 static rb_status read_market(void)
 {
     OWNED(rb_io_matrix) m;
-    return rb_io_matrix_market_read(path, &m, &heard);
+    return rb_io_matrix_market_read(path, &m, &message);
 }
 
 static rb_status guess(void)
 {
     rb_io_siconos_kind kind;
-    return rb_io_siconos_guess(path, &kind, &heard);
+    return rb_io_siconos_guess(path, &kind, &message);
 }
 
 static void check_refused(reader *read, const char *text, const char *words)
 {
     put(text);
-    heard.text[0] = 0;
+    message.text[0] = 0;
     CHECK_STATUS(read(), RB_EFORMAT);
-    if (!strstr(heard.text, words) || strncmp(heard.text, path, strlen(path)))
-        fail_msg("expected '%s' after the path in: %s", words, heard.text);
+    if (!strstr(message.text, words) || strncmp(message.text, path, strlen(path)))
+        fail_msg("expected '%s' after the path in: %s", words, message.text);
 }
 
 TEST(what_is_wrong_is_named_with_its_line)
@@ -372,8 +372,9 @@ TEST(damaged_files_are_refused_or_read)
 TEST(missing_files_and_folders)
 {
     rb_io_lcp p;
-    CHECK_SAYS(rb_io_siconos_read_lcp("/nowhere/at all", &p, &heard), RB_ENOENT, "/nowhere/at all");
-    CHECK_STATUS(rb_io_siconos_read_lcp("/tmp", &p, &heard), RB_ENOENT);
+    CHECK_SAYS(rb_io_siconos_read_lcp("/nowhere/at all", &p, &message), RB_ENOENT,
+               "/nowhere/at all");
+    CHECK_STATUS(rb_io_siconos_read_lcp("/tmp", &p, &message), RB_ENOENT);
 }
 
 TEST(short_memory_is_reported)
@@ -413,8 +414,8 @@ TEST(market_gives_back_the_same_numbers)
 {
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
     OWNED(rb_io_matrix) m;
-    CHECK_OK(rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &heard));
-    CHECK_OK(rb_io_matrix_market_read(path, &m, &heard));
+    CHECK_OK(rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &message));
+    CHECK_OK(rb_io_matrix_market_read(path, &m, &message));
     assert_int_equal(m.rows, 3);
     assert_int_equal(m.cols, 2);
     for (int j = 0; j < 2; j++)
@@ -433,7 +434,7 @@ TEST(skew_symmetric_markets_are_read)
     for (int k = 0; k < 2; k++) {
         OWNED(rb_io_matrix) m;
         put(files[k]);
-        CHECK_OK(rb_io_matrix_market_read(path, &m, &heard));
+        CHECK_OK(rb_io_matrix_market_read(path, &m, &message));
         CHECK_OK(rb_io_matrix_to_dense(&m));
         for (int i = 0; i < 9; i++)
             CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
@@ -459,7 +460,7 @@ TEST(market_kinds)
     for (int k = 0; k < 4; k++) {
         OWNED(rb_io_matrix) m;
         put(files[k]);
-        CHECK_OK(rb_io_matrix_market_read(path, &m, &heard));
+        CHECK_OK(rb_io_matrix_market_read(path, &m, &message));
         CHECK_OK(rb_io_matrix_to_dense(&m));
         for (int i = 0; i < 4; i++)
             CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
@@ -505,9 +506,9 @@ TEST(market_refusals)
     check_refused(read_market, "%%matrixmarket matrix array real general\n1 4\n5\n", "room for 2");
     check_refused(read_market, "%%matrixmarket matrix array real general\n1 1\n5\n6\n",
                   "end of the file");
-    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 1, x, 2}, NULL, &heard),
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 1, x, 2}, NULL, &message),
                  RB_EINVAL);
-    CHECK_STATUS(rb_io_matrix_market_write("/nowhere/m", (rb_io_dense){2, 1, x, 2}, NULL, &heard),
+    CHECK_STATUS(rb_io_matrix_market_write("/nowhere/m", (rb_io_dense){2, 1, x, 2}, NULL, &message),
                  RB_EWRITE);
 }
 
@@ -529,8 +530,8 @@ TEST(market_files_are_written_by_columns)
     CHECK_OK(rb_io_matrix_market_write(path, (rb_io_dense){1, 2, x, 1}, NULL, NULL));
     check_content("%%MatrixMarket matrix array real general\n1 2\n1\n2\n");
     for (int k = 0; k < 3; k++) {
-        CHECK_STATUS(rb_io_matrix_market_write(path, bad[k], NULL, &heard), RB_EINVAL);
-        assert_non_null(strstr(heard.text, "with leading dimension 2"));
+        CHECK_STATUS(rb_io_matrix_market_write(path, bad[k], NULL, &message), RB_EINVAL);
+        assert_non_null(strstr(message.text, "with leading dimension 2"));
     }
     CHECK_OK(rb_io_matrix_market_write(path, (rb_io_dense){0, 0, x, 0}, NULL, NULL));
     check_content("%%MatrixMarket matrix array real general\n0 0\n");
@@ -569,7 +570,7 @@ TEST(market_heads_are_taken_word_by_word)
         check_refused(read_market, bad[k].text, bad[k].words);
     OWNED(rb_io_matrix) m;
     put("%%MatrixMarket matrix coordinate real general\n2 3 0\n");
-    CHECK_OK(rb_io_matrix_market_read(path, &m, &heard));
+    CHECK_OK(rb_io_matrix_market_read(path, &m, &message));
     CHECK_OK(rb_io_matrix_to_dense(&m));
     for (int k = 0; k < 6; k++)
         CHECK_ABS(m.dense[k], 0.0, 0.0, "entry %d", k);
@@ -578,7 +579,7 @@ TEST(market_heads_are_taken_word_by_word)
 static rb_status read_as_dense(void)
 {
     OWNED(rb_io_matrix) m;
-    rb_status s = rb_io_matrix_market_read(path, &m, &heard);
+    rb_status s = rb_io_matrix_market_read(path, &m, &message);
     if (s == RB_OK)
         s = rb_io_matrix_to_dense(&m);
     return s;
@@ -589,7 +590,7 @@ static rb_status read_as_dense(void)
 static rb_status read_with_q(void)
 {
     OWNED(rb_io_lcp) p;
-    const rb_status s = rb_io_lcp_read(path, second, &p, &heard);
+    const rb_status s = rb_io_lcp_read(path, second, &p, &message);
     if (s == RB_OK) {
         assert_int_equal(p.n, 2);
         CHECK_ABS(p.q[0], 5.0, 0.0, "q");
@@ -603,7 +604,7 @@ static rb_status read_with_q(void)
 static rb_status read_game(void)
 {
     OWNED(rb_io_bimatrix) p;
-    const rb_status s = rb_io_bimatrix_read(path, &p, &heard);
+    const rb_status s = rb_io_bimatrix_read(path, &p, &message);
     if (s != RB_OK)
         assert_true(!p.A && !p.B);
     return s;
@@ -614,8 +615,8 @@ static void refused_with(reader *read, const char *text, const char *q, const ch
     put(text);
     put_second(q);
     CHECK_STATUS(read(), RB_EFORMAT);
-    if (!strstr(heard.text, words))
-        fail_msg("expected '%s' in: %s", words, heard.text);
+    if (!strstr(message.text, words))
+        fail_msg("expected '%s' in: %s", words, message.text);
 }
 
 TEST(kinds_of_lcp_are_told_apart)
@@ -647,12 +648,12 @@ TEST(kinds_of_lcp_are_told_apart)
     refused_with(read_any_lcp, "0 1", "", "expected the end of the file after n = 0");
     put("1 2");
     CHECK_STATUS(rb_io_lcp_read(path, NULL, &(rb_io_lcp){0}, NULL), RB_EFORMAT);
-    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", NULL, &(rb_io_lcp){0}, &heard), RB_ENOENT);
-    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", path, &(rb_io_lcp){0}, &heard), RB_ENOENT);
+    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", NULL, &(rb_io_lcp){0}, &message), RB_ENOENT);
+    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", path, &(rb_io_lcp){0}, &message), RB_ENOENT);
     /* the head of a friction problem, but n, n rows of M and q */
     OWNED(rb_io_lcp) p;
     put("2 1 0 2 2 -7 8");
-    CHECK_OK(rb_io_lcp_read(path, NULL, &p, &heard));
+    CHECK_OK(rb_io_lcp_read(path, NULL, &p, &message));
     static const double want[] = {1.0, 2.0, 0.0, 2.0};
     for (int k = 0; k < 4; k++)
         CHECK_ABS(p.M.dense[k], want[k], 0.0, "M, entry %d", k);
@@ -664,32 +665,32 @@ TEST(vectors_are_as_long_as_they_must)
 {
     double *x;
     put("1 inf\n-Infinity # no bound");
-    CHECK_OK(rb_io_bounds_read(path, 3, "the bounds", &x, &heard));
+    CHECK_OK(rb_io_bounds_read(path, 3, "the bounds", &x, &message));
     assert_true(x[0] == 1.0 && x[1] == INFINITY && x[2] == -INFINITY);
     free(x);
-    CHECK_STATUS(rb_io_vector_read(path, 3, "the start", &x, &heard), RB_EFORMAT);
+    CHECK_STATUS(rb_io_vector_read(path, 3, "the start", &x, &message), RB_EFORMAT);
     assert_non_null(
-        strstr(heard.text, ":1: the start, number 2: expected a finite number, got 'inf'"));
+        strstr(message.text, ":1: the start, number 2: expected a finite number, got 'inf'"));
     assert_null(x);
     put("1 nan");
-    CHECK_STATUS(rb_io_bounds_read(path, 2, "the bounds", &x, &heard), RB_EFORMAT);
-    assert_non_null(strstr(heard.text, "expected a number, inf or -inf, got 'nan'"));
-    CHECK_STATUS(rb_io_vector_read("/nowhere/x", 1, "x", &x, &heard), RB_ENOENT);
+    CHECK_STATUS(rb_io_bounds_read(path, 2, "the bounds", &x, &message), RB_EFORMAT);
+    assert_non_null(strstr(message.text, "expected a number, inf or -inf, got 'nan'"));
+    CHECK_STATUS(rb_io_vector_read("/nowhere/x", 1, "x", &x, &message), RB_ENOENT);
     assert_null(x);
     put("0123456789012345678901234567890123456789-more");
-    CHECK_STATUS(rb_io_vector_read(path, 1, "x", &x, &heard), RB_EFORMAT);
-    assert_non_null(strstr(heard.text, "got '0123456789012345678901234567890123456789'"));
+    CHECK_STATUS(rb_io_vector_read(path, 1, "x", &x, &message), RB_EFORMAT);
+    assert_non_null(strstr(message.text, "got '0123456789012345678901234567890123456789'"));
 }
 
 TEST(games_are_two_matrices)
 {
     rb_io_bimatrix p;
     put("1, 1 # sizes\n3\n4");
-    CHECK_OK(rb_io_bimatrix_read(path, &p, &heard));
+    CHECK_OK(rb_io_bimatrix_read(path, &p, &message));
     assert_true(p.m == 1 && p.n == 1 && p.A[0] == 3.0 && p.B[0] == 4.0);
     rb_io_bimatrix_free(&p);
     put("2 3\n1 2 3\n4 5 6\n7 8 9\n10 11 12\n");
-    CHECK_OK(rb_io_bimatrix_read(path, &p, &heard));
+    CHECK_OK(rb_io_bimatrix_read(path, &p, &message));
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 3; j++) {
             CHECK_ABS(p.A[i + 2 * j], 1.0 + 3 * i + j, 0.0, "A");
@@ -702,7 +703,7 @@ TEST(games_are_two_matrices)
                   ":4: expected the end of the file after m, n, A and B (1 by 1)");
     check_refused(read_game, "1 2\n1 2\n3 x", ":3: B, row 1, number 2");
     check_refused(read_game, "2 1\n1\nx\n1\n1", ":3: A, row 2");
-    CHECK_STATUS(rb_io_bimatrix_read("/nowhere/x", &p, &heard), RB_ENOENT);
+    CHECK_STATUS(rb_io_bimatrix_read("/nowhere/x", &p, &message), RB_ENOENT);
 }
 
 /* ---- Text -------------------------------------------------------------------------- */
@@ -714,30 +715,30 @@ TEST(texts_are_told_from_what_is_none)
     put_bytes("\xff\xfe"
               "1\0",
               4);
-    CHECK_STATUS(rb_io_read_text(path, &text, &size, &heard), RB_EFORMAT);
-    assert_non_null(strstr(heard.text, ": UTF-16 text, expected ASCII or UTF-8"));
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &message), RB_EFORMAT);
+    assert_non_null(strstr(message.text, ": UTF-16 text, expected ASCII or UTF-8"));
     assert_null(text);
     put_bytes("\xfe\xff\0"
               "1",
               4);
-    CHECK_SAYS(rb_io_read_text(path, &text, &size, &heard), RB_EFORMAT, "UTF-16");
+    CHECK_SAYS(rb_io_read_text(path, &text, &size, &message), RB_EFORMAT, "UTF-16");
     put_bytes("1\n2\n\0\n", 6);
-    CHECK_STATUS(rb_io_read_text(path, &text, &size, &heard), RB_EFORMAT);
-    assert_non_null(strstr(heard.text, ":3: a zero byte, expected text"));
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &message), RB_EFORMAT);
+    assert_non_null(strstr(message.text, ":3: a zero byte, expected text"));
     put_bytes("\xff", 1);
-    CHECK_OK(rb_io_read_text(path, &text, &size, &heard));
+    CHECK_OK(rb_io_read_text(path, &text, &size, &message));
     assert_int_equal(size, 1);
     free(text);
     put("\xef\xbb\xbf"
         "1 2\n");
-    CHECK_OK(rb_io_read_text(path, &text, &size, &heard));
+    CHECK_OK(rb_io_read_text(path, &text, &size, &message));
     assert_string_equal(text, "   1 2\n");
     free(text);
-    CHECK_STATUS(rb_io_read_text("/tmp", &text, &size, &heard), RB_ENOENT);
-    assert_string_equal(heard.text, "/tmp: Is a directory");
+    CHECK_STATUS(rb_io_read_text("/tmp", &text, &size, &message), RB_ENOENT);
+    assert_string_equal(message.text, "/tmp: Is a directory");
     if (access("/proc/self/mem", R_OK) == 0) { /* opens, and cannot be read at 0 */
-        CHECK_STATUS(rb_io_read_text("/proc/self/mem", &text, &size, &heard), RB_ENOENT);
-        assert_string_equal(heard.text, "/proc/self/mem: Input/output error");
+        CHECK_STATUS(rb_io_read_text("/proc/self/mem", &text, &size, &message), RB_ENOENT);
+        assert_string_equal(message.text, "/proc/self/mem: Input/output error");
         assert_null(text);
     }
     enum { LONG = 9000 }; /* more than two of its buffers */
@@ -745,7 +746,7 @@ TEST(texts_are_told_from_what_is_none)
     memset(all, '7', LONG);
     for (int n = 4094; n <= LONG; n += n < 4098 ? 1 : 2451) {
         put_bytes(all, (size_t)n);
-        CHECK_OK(rb_io_read_text(path, &text, &size, &heard));
+        CHECK_OK(rb_io_read_text(path, &text, &size, &message));
         assert_int_equal(size, (size_t)n);
         assert_memory_equal(text, all, (size_t)n);
         assert_int_equal(text[n], '\0');
@@ -768,10 +769,10 @@ static void check_collection(const char *folder, rb_io_siconos_kind kind, reader
         snprintf(name, sizeof name, "%s/%s", root, e->d_name);
         remove(path);
         assert_int_equal(symlink(name, path), 0);
-        CHECK_OK(rb_io_siconos_guess(path, &got, &heard));
+        CHECK_OK(rb_io_siconos_guess(path, &got, &message));
         assert_int_equal(got, kind);
         if (read() != RB_OK)
-            fail_msg("%s: %s", name, heard.text);
+            fail_msg("%s: %s", name, message.text);
         files++;
     }
     closedir(d);

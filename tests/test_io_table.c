@@ -24,9 +24,9 @@ static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 static void check_history(const char *text, int first_line)
 {
     OWNED(rb_io_table) t;
-    const rb_status s = read_text(text, &t, &heard);
+    const rb_status s = read_text(text, &t, &message);
     if (s != RB_OK)
-        fail_msg("%s", heard.text);
+        fail_msg("%s", message.text);
     assert_int_equal(t.rows, 2);
     assert_int_equal(t.columns, 3);
     const double *load = NOT_NULL(rb_io_table_column(&t, "load"));
@@ -214,15 +214,15 @@ TEST(headings_that_are_not_understood_are_named)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         OWNED(rb_io_table) t;
         const double *x[2];
-        CHECK_OK(read_text(bad[k].text, &t, &heard));
-        CHECK_SAYS(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_MM, x, &heard), RB_EFORMAT,
+        CHECK_OK(read_text(bad[k].text, &t, &message));
+        CHECK_SAYS(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_MM, x, &message), RB_EFORMAT,
                    bad[k].part);
     }
     /* of as many words as there are columns, but about something else */
     OWNED(rb_io_table) t;
     const double *x[2];
-    CHECK_OK(read_text("# steel wheel\n1 2\n", &t, &heard));
-    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &heard));
+    CHECK_OK(read_text("# steel wheel\n1 2\n", &t, &message));
+    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &message));
     assert_null(t.name);
     CHECK_REL(x[1][0], 2000.0, 1e-15, "gap in m by the system");
 }
@@ -233,7 +233,7 @@ TEST(units_of_columns_are_those_of_their_names)
     OWNED(rb_io_table) t;
     const double *x[2];
     CHECK_OK(read_text("x_mm gap\n1 2\n3 4\n", &t, NULL));
-    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &heard));
+    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &message));
     CHECK_ABS(x[0][1], 3.0, 0.0, "x in mm by its name");
     CHECK_REL(x[1][1], 4000.0, 1e-15, "gap in m by the system");
 }
@@ -250,7 +250,7 @@ TEST(commas_are_decimal_or_separate)
                {"2\t3\n0,5\t1,25\n", 2, 2.0}, {"0;5;1\n", 3, 0.0}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         OWNED(rb_io_table) t;
-        CHECK_OK(read_text(all[k].text, &t, &heard));
+        CHECK_OK(read_text(all[k].text, &t, &message));
         assert_int_equal(t.columns, all[k].columns);
         CHECK_ABS(t.x[0], all[k].first, 0.0, "%s", all[k].text);
     }
@@ -273,7 +273,7 @@ TEST(files_of_other_programs_are_named)
                {"\xff\xfex", 3, "half a character of UTF-16"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_io_table t;
-        CHECK_SAYS(read_bytes(all[k].bytes, all[k].n, &t, &heard), RB_EFORMAT, all[k].part);
+        CHECK_SAYS(read_bytes(all[k].bytes, all[k].n, &t, &message), RB_EFORMAT, all[k].part);
     }
 }
 
@@ -287,8 +287,8 @@ TEST(unused_columns_may_have_no_numbers)
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         OWNED(rb_io_table) t;
         const double *x[2];
-        CHECK_OK(read_text(text[k], &t, &heard));
-        CHECK_OK(rb_io_table_assign("g", &t, 2, of_x, RB_UNITS_MM, x, &heard));
+        CHECK_OK(read_text(text[k], &t, &message));
+        CHECK_OK(rb_io_table_assign("g", &t, 2, of_x, RB_UNITS_MM, x, &message));
         CHECK_ABS(x[0][1] - x[0][0], 1.0, 0.0, "x, %zu", k);
         assert_true(t.x[0] != t.x[0] || t.x[2] != t.x[2]);
     }
@@ -306,7 +306,7 @@ TEST(cells_may_be_words)
         const int fd = mkstemp(name);
         assert_int_equal(write(fd, text[k], strlen(text[k])), (int)strlen(text[k]));
         close(fd);
-        CHECK_OK(rb_io_table_read_words(name, &t, &heard));
+        CHECK_OK(rb_io_table_read_words(name, &t, &message));
         assert_int_equal(t.rows, 2);
         assert_string_equal(t.word[0], "old rail");
         assert_string_equal(t.word[1], "");

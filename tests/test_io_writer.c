@@ -184,8 +184,8 @@ TEST_WITH(make_folder, remove_folder, what_cannot_be_written_is_refused)
     rb_io_writer w;
     char inside[160];
     snprintf(inside, sizeof inside, "%s/no/such", folder);
-    CHECK_SAYS(rb_io_writer_open(inside, &w, &heard), RB_EWRITE, inside);
-    CHECK_STATUS(rb_io_writer_open(folder, &w, &heard), RB_EWRITE);
+    CHECK_SAYS(rb_io_writer_open(inside, &w, &message), RB_EWRITE, inside);
+    CHECK_STATUS(rb_io_writer_open(folder, &w, &message), RB_EWRITE);
     assert_int_equal(entries(), 0);
 }
 
@@ -194,10 +194,10 @@ TEST(a_full_device_is_noticed)
     rb_io_writer w;
     if (access("/dev/full", W_OK) != 0)
         skip();
-    CHECK_OK(rb_io_writer_open("/dev/full", &w, &heard));
+    CHECK_OK(rb_io_writer_open("/dev/full", &w, &message));
     fputs("lost", w.file);
-    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
-    assert_true(strlen(heard.text) > 0);
+    CHECK_STATUS(rb_io_writer_commit(&w, &message), RB_EWRITE);
+    assert_true(strlen(message.text) > 0);
 }
 
 TEST(stdout_is_not_closed)
@@ -351,13 +351,13 @@ TEST(devices_that_fail_are_named)
 {
     rb_io_writer w;
     fail_call("access", EACCES, 1);
-    CHECK_STATUS(rb_io_writer_check("/dev/null", &heard), RB_EWRITE);
-    assert_string_equal(heard.text, "/dev/null: cannot write: Permission denied");
+    CHECK_STATUS(rb_io_writer_check("/dev/null", &message), RB_EWRITE);
+    assert_string_equal(message.text, "/dev/null: cannot write: Permission denied");
     assert_true(calls_succeed());
     CHECK_OK(rb_io_writer_open("/dev/null", &w, NULL));
     fail_call("fclose", EIO, 1);
-    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
-    assert_string_equal(heard.text, "/dev/null: cannot write: Input/output error");
+    CHECK_STATUS(rb_io_writer_commit(&w, &message), RB_EWRITE);
+    assert_string_equal(message.text, "/dev/null: cannot write: Input/output error");
     assert_true(calls_succeed());
     if (access("/dev/full", W_OK) != 0)
         skip();
@@ -365,8 +365,8 @@ TEST(devices_that_fail_are_named)
     fputs("lost", w.file);
     fflush(w.file); /* its reason is forgotten by the time of the commit */
     fail_call("fclose", EIO, 1);
-    CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
-    assert_string_equal(heard.text, "/dev/full: cannot write: write error");
+    CHECK_STATUS(rb_io_writer_commit(&w, &message), RB_EWRITE);
+    assert_string_equal(message.text, "/dev/full: cannot write: write error");
     calls_succeed();
 }
 
@@ -389,9 +389,9 @@ TEST_WITH(make_folder, remove_folder, a_reason_that_is_forgotten_is_asked_for_ag
         assert_true(ferror(w.file));
         if (still)
             fail_call("write", ENOSPC, 1);
-        CHECK_STATUS(rb_io_writer_commit(&w, &heard), RB_EWRITE);
+        CHECK_STATUS(rb_io_writer_commit(&w, &message), RB_EWRITE);
         assert_true(calls_succeed());
-        assert_non_null(strstr(heard.text, still ? "No space left" : "write error"));
+        assert_non_null(strstr(message.text, still ? "No space left" : "write error"));
         assert_int_equal(entries(), 0);
     }
     close(full);
@@ -406,22 +406,22 @@ TEST_WITH(make_folder, remove_folder, folders_are_made_or_refused)
     CHECK_OK(rb_io_folder_check(name[0], NULL));
     CHECK_OK(rb_io_folder_check(name[1], NULL));
     CHECK_OK(rb_io_folder_check("here-there-is-none", NULL));
-    CHECK_SAYS(rb_io_folder_check(name[3], &heard), RB_EWRITE,
+    CHECK_SAYS(rb_io_folder_check(name[3], &message), RB_EWRITE,
                "no/such: cannot write: No such file");
     assert_int_equal(entries(), 0);
     CHECK_OK(rb_io_make_folder(name[0], NULL));
     CHECK_OK(rb_io_make_folder(name[0], NULL));
     CHECK_OK(rb_io_folder_check(name[0], NULL));
     fail_call("access", EACCES, 1);
-    CHECK_SAYS(rb_io_folder_check(name[0], &heard), RB_EWRITE,
+    CHECK_SAYS(rb_io_folder_check(name[0], &message), RB_EWRITE,
                "below: cannot write: Permission denied");
     assert_true(calls_succeed());
     write_line("a file");
-    CHECK_SAYS(rb_io_folder_check(path, &heard), RB_EWRITE, "out: cannot write: Not a directory");
-    CHECK_STATUS(rb_io_make_folder(path, &heard), RB_EWRITE);
+    CHECK_SAYS(rb_io_folder_check(path, &message), RB_EWRITE, "out: cannot write: Not a directory");
+    CHECK_STATUS(rb_io_make_folder(path, &message), RB_EWRITE);
     assert_int_equal(symlink("nowhere", name[2]), 0);
-    CHECK_SAYS(rb_io_make_folder(name[2], &heard), RB_EWRITE, "dangling: cannot write: ");
-    CHECK_STATUS(rb_io_make_folder(name[3], &heard), RB_EWRITE);
+    CHECK_SAYS(rb_io_make_folder(name[2], &message), RB_EWRITE, "dangling: cannot write: ");
+    CHECK_STATUS(rb_io_make_folder(name[3], &message), RB_EWRITE);
     joined = rb_io_join("a", "b.txt");
     assert_string_equal(joined, "a/b.txt");
     free(joined);

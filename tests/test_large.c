@@ -39,9 +39,9 @@ TEST(a_law_that_is_followed_equals_one_begun_at_rest)
         if (k > 1) {
             set(&rc, "creep-ratio nan force-ratio -0.5");
         }
-        CHECK_OK(rb_rolling_solve(&rc, &followed, &heard));
+        CHECK_OK(rb_rolling_solve(&rc, &followed, &message));
         rc.contact.solver = RB_SOLVER_LEMKE;
-        CHECK_OK(rb_rolling_solve(&rc, &begun, &heard));
+        CHECK_OK(rb_rolling_solve(&rc, &begun, &message));
         CHECK_REL(followed.creepage, begun.creepage, 1e-9, "creepage");
         CHECK_REL(followed.force_ratio, begun.force_ratio, 1e-9, "force");
         CHECK_ABS(followed.free_creepage, begun.free_creepage, 1e-12, "free rolling");
@@ -70,9 +70,9 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     } else
         assert_int_equal(model.bodies.transforms.n, rc->contact_elements);
     dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
-    CHECK_OK(rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, &heard));
+    CHECK_OK(rb_rolling_bodies_create(&dense, NULL, &model.mesh, &bodies, &message));
     assert_non_null(bodies.F);
-    CHECK_OK(rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &heard));
+    CHECK_OK(rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &message));
     CHECK_REL(model.problem.gap_length, problem.gap_length, 1e-12, "scale of gaps");
     CHECK_REL(model.problem.slip_length, problem.slip_length, 1e-3, "scale of slips");
     assert_int_equal(rb_contact_operator_response(model.problem.op).coupled,
@@ -80,7 +80,7 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     CHECK_OK(rb_contact_state_alloc(model.mesh.n, &state));
     dense.contact.solver = RB_SOLVER_NEWTON;
     memcpy(state.zone, model.state.zone, (size_t)state.n * sizeof(int));
-    CHECK_OK(rb_rolling_problem_solve(&problem, &dense, 1, &state, &heard));
+    CHECK_OK(rb_rolling_problem_solve(&problem, &dense, 1, &state, &message));
     for (int i = 0; i < state.n; i++) {
         assert_int_equal(state.zone[i], model.state.zone[i]);
         CHECK_ABS(model.state.p[i], state.p[i], 1e-9 * problem.stress, "p of %d", i);
@@ -337,13 +337,13 @@ TEST(a_search_ends_at_its_step_limit)
 
     set(&rc, "mu 30");
     rb_contact_set_friction(&model.problem, rc.mu, NULL);
-    CHECK_SAYS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &heard), RB_MAXITER,
+    CHECK_SAYS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &message), RB_MAXITER,
                "mu beta = 13.3");
     assert_true(model.problem.step_limit > 0);
     assert_true(model.state.iterations < 2 * model.problem.step_limit);
     set(&rc, "mu 1");
     rb_contact_set_friction(&model.problem, rc.mu, NULL);
-    CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &heard));
+    CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, &message));
     assert_int_equal(model.problem.step_limit, 0);
 }
 
@@ -437,9 +437,9 @@ TEST(without_a_matrix_some_refuse)
     rb_contact_lcp lcp;
     rb_contact_cone cone;
 
-    CHECK_SAYS(rb_rolling_model_lcp(&model, &lcp, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_model_lcp(&model, &lcp, &message), RB_EINVAL,
                "1500 contact elements are too many");
-    CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &message), RB_EINVAL);
 }
 
 TEST(failing_allocations)
@@ -457,7 +457,7 @@ TEST(failing_allocations)
     for (int k = 0, refused = 1, runs = 0; refused; k += 1 + k / 12, runs++) {
         OWNED(rb_rolling_model) model;
         alloc_fail_after(k);
-        const rb_status s = rb_rolling_model_create(&rc, &model, &heard);
+        const rb_status s = rb_rolling_model_create(&rc, &model, &message);
         refused = alloc_failed();
         alloc_succeed();
         if (!refused)

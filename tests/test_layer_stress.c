@@ -202,24 +202,24 @@ TEST(bad_input)
     static const double outside[][2] = {{0.0, -1e-9}, {0.0, 0.51}, {0.0, NAN}};
     double s[3] = {0.0, 0.0, 0.0};
     set_traction(&t);
-    CHECK_OK(rb_bem_layer_field_create(&body, &t.load, &field, &heard));
+    CHECK_OK(rb_bem_layer_field_create(&body, &t.load, &field, &message));
     for (int k = 0; k < 3; k++)
-        CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, outside[k]}, s, &heard),
+        CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, outside[k]}, s, &message),
                      RB_EINVAL);
     const double far[2] = {1e4, 0.1};
-    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, far}, s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, far}, s, &message), RB_EINVAL);
     rb_bem_layer_field_free(field);
     rb_bem_layer_field_free(NULL);
     body.thickness = 0.0;
-    CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &message), RB_EINVAL);
     body.thickness = 1e-5; /* too thin for so wide a load */
     const double inside[2] = {0.0, 5e-6};
-    CHECK_OK(rb_bem_layer_field_create(&body, &t.load, &field, &heard));
-    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, inside}, s, &heard), RB_EINVAL);
+    CHECK_OK(rb_bem_layer_field_create(&body, &t.load, &field, &message));
+    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, inside}, s, &message), RB_EINVAL);
     rb_bem_layer_field_free(field);
     t.x[3] = t.x[1]; /* the same as t.x[2] would be a jump */
     body.thickness = 0.5;
-    CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &message), RB_EINVAL);
     assert_null(field);
 }
 

@@ -226,14 +226,14 @@ typedef struct {
     int basis[64][3];
 } bases;
 
-static void keep_basis(const rb_lcp_pivot *seen, void *context)
+static void keep_basis(const rb_lcp_pivot *pivot, void *context)
 {
     bases *b = context;
     if (b->count == 64)
         return;
     for (int k = 0; k < b->count; k++)
-        b->repeated += !memcmp(b->basis[k], seen->basis, sizeof b->basis[k]);
-    memcpy(b->basis[b->count++], seen->basis, sizeof b->basis[0]);
+        b->repeated += !memcmp(b->basis[k], pivot->basis, sizeof b->basis[k]);
+    memcpy(b->basis[b->count++], pivot->basis, sizeof b->basis[0]);
 }
 
 /* Kostreva (1979): a P-matrix on which Lemke's method, taking the first of the rows that
@@ -330,46 +330,46 @@ typedef struct {
 
 /* Values of all variables, from any values of the nonbasic ones, satisfy
  * w = q + M z + cover z0. */
-static void check_tableau(const rb_lcp_pivot *seen, const watched *p)
+static void check_tableau(const rb_lcp_pivot *pivot, const watched *p)
 {
     const int n = p->n;
     double x[2 * LARGEST + 1];
     for (int j = 0; j <= n; j++)
-        x[seen->nonbasis[j]] = uniform();
+        x[pivot->nonbasis[j]] = uniform();
     for (int i = 0; i < n; i++) {
-        double s = seen->tableau[i + (n + 1) * n];
+        double s = pivot->tableau[i + (n + 1) * n];
         for (int j = 0; j <= n; j++)
-            s += seen->tableau[i + j * n] * x[seen->nonbasis[j]];
-        x[seen->basis[i]] = s;
+            s += pivot->tableau[i + j * n] * x[pivot->nonbasis[j]];
+        x[pivot->basis[i]] = s;
     }
     for (int i = 0; i < n; i++) {
         double w = p->q[i] + p->cover[i] * x[2 * n];
         for (int j = 0; j < n; j++)
             w += p->M[i + j * p->ldm] * x[n + j];
-        CHECK_ABS(x[i], w, 1e-9, "pivot %d, row %d", seen->pivot, i);
+        CHECK_ABS(x[i], w, 1e-9, "pivot %d, row %d", pivot->pivot, i);
     }
 }
 
 enum { ATTEMPT = 3 };
 
-static void watch(const rb_lcp_pivot *seen, void *context)
+static void watch(const rb_lcp_pivot *pivot, void *context)
 {
     watched *p = context;
-    assert_int_equal(seen->pivot, p->count);
-    assert_int_equal(seen->n, p->n);
-    assert_int_equal(seen->basis[seen->row], seen->entering);
-    assert_true(seen->ratio >= -1e-12 && seen->z0 >= 0.0);
-    p->pivots[p->count][0] = seen->entering;
-    p->pivots[p->count++][1] = seen->leaving;
-    assert_int_equal(seen->attempt, ATTEMPT);
+    assert_int_equal(pivot->pivot, p->count);
+    assert_int_equal(pivot->n, p->n);
+    assert_int_equal(pivot->basis[pivot->row], pivot->entering);
+    assert_true(pivot->ratio >= -1e-12 && pivot->z0 >= 0.0);
+    p->pivots[p->count][0] = pivot->entering;
+    p->pivots[p->count++][1] = pivot->leaving;
+    assert_int_equal(pivot->attempt, ATTEMPT);
     for (int i = 0; i < p->n; i++)
-        if (seen->basis[i] == 2 * p->n)
-            CHECK_ABS(seen->value[i], seen->z0, 1e-12 * (1.0 + seen->z0), "z0");
-    if (seen->tableau)
-        assert_memory_equal(seen->value, seen->tableau + p->n * (p->n + 1),
-                            (size_t)p->n * sizeof *seen->value);
-    if (seen->tableau)
-        check_tableau(seen, p);
+        if (pivot->basis[i] == 2 * p->n)
+            CHECK_ABS(pivot->value[i], pivot->z0, 1e-12 * (1.0 + pivot->z0), "z0");
+    if (pivot->tableau)
+        assert_memory_equal(pivot->value, pivot->tableau + p->n * (p->n + 1),
+                            (size_t)p->n * sizeof *pivot->value);
+    if (pivot->tableau)
+        check_tableau(pivot, p);
 }
 
 static watched p_, p_full_;
@@ -466,9 +466,9 @@ TEST(odd_input_is_taken)
     CHECK_ABS(fmax(z[0], z[1]), 0.0, 0.0, "z");
 }
 
-static void ignore(const rb_lcp_pivot *seen, void *context)
+static void ignore(const rb_lcp_pivot *pivot, void *context)
 {
-    (void)seen;
+    (void)pivot;
     (void)context;
 }
 
@@ -517,7 +517,7 @@ TEST(the_collection_is_solved)
         rb_lcp_info info;
         double z[32];
         snprintf(name, sizeof name, "siconos/lcp/%s.dat", files[k].file);
-        CHECK_OK(rb_io_siconos_read_lcp(outside_data(name), &p, &heard));
+        CHECK_OK(rb_io_siconos_read_lcp(outside_data(name), &p, &message));
         CHECK_OK(rb_io_matrix_to_dense(&p.M));
         assert_int_equal(p.n, files[k].n);
         CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M.dense, p.n, p.q}, NULL, z, &info));

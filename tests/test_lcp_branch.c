@@ -58,8 +58,8 @@ static void pose(int n, unsigned number, int planted, int boxes, int units, prob
     }
 }
 
-static rb_status solve(const problem *p, int boxes, const rb_lcp_options *opt, double *z,
-                       rb_lcp_info *info)
+static rb_status solve_by_branching(const problem *p, int boxes, const rb_lcp_options *opt,
+                                    double *z, rb_lcp_info *info)
 {
     OWNED(rb_sparse) M;
     const rb_status s = rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M);
@@ -103,7 +103,7 @@ TEST(planted_integers_are_solved)
         if (!is_in_turn(k, 2))
             continue;
         pose(8 + 4 * (k / 2 % 4), (unsigned)k, 1, 0, k / 8 % 2, &p);
-        CHECK_OK(solve(&p, 0, NULL, z, &info));
+        CHECK_OK(solve_by_branching(&p, 0, NULL, z, &info));
         CHECK_MAX(violation(&p, 0, z), 1e-10, "problem %d by %s", k, info.solver);
         branched += strcmp(info.solver, "branching") == 0;
     }
@@ -123,9 +123,9 @@ TEST(no_solution_is_what_all_bases_say)
         OWNED(rb_lcp_solutions) all;
         const int boxes = k / 4 % 2, n = boxes ? 2 + k / 8 % 5 : 3 + k / 8 % 7;
         pose(n, 1000u + (unsigned)k, 0, boxes, k / 64 % 2, &p);
-        const rb_status s = solve(&p, boxes, NULL, z, &info);
+        const rb_status s = solve_by_branching(&p, boxes, NULL, z, &info);
         CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){n, p.M, n, p.q}, boxes ? p.lower : NULL,
-                                  boxes ? p.upper : NULL, 0.0, &all, &heard));
+                                  boxes ? p.upper : NULL, 0.0, &all, &message));
         if (s != (all.count > 0 ? RB_OK : all.undecided ? RB_UNDECIDED : RB_NO_SOLUTION))
             fail_msg("problem %d: %s (%s), %d solutions, %d undecided", k, rb_status_text(s),
                      info.msg.text, all.count, all.undecided);
@@ -148,7 +148,7 @@ TEST(larger_ones_are_decided)
         if (!is_in_turn(k, 4))
             continue;
         pose(orders[k], 50u + (unsigned)k, 0, 0, 0, &p);
-        const rb_status s = solve(&p, 0, NULL, z, &info);
+        const rb_status s = solve_by_branching(&p, 0, NULL, z, &info);
         if (s == RB_OK)
             CHECK_MAX(violation(&p, 0, z), 1e-10, "problem %d", k);
         else
@@ -177,7 +177,7 @@ TEST(no_solution_is_never_said_of_definite_matrices)
                 }
                 p.q[j] = j * 37 % 101 - 50;
             }
-            const rb_status s = solve(&p, 0, NULL, z, &info);
+            const rb_status s = solve_by_branching(&p, 0, NULL, z, &info);
             if (s != RB_OK && s != RB_UNDECIDED && s != RB_NUMERICAL)
                 fail_msg("n = %d, k = %d: %s", n, k, info.msg.text);
             solved += s == RB_OK;
@@ -195,7 +195,7 @@ TEST(limits_end_the_search)
     pose(60, 3u, 1, 0, 0, &p);
     opt.seconds = 0.02;
     const double began = rb_seconds();
-    const rb_status s = solve(&p, 0, &opt, z, &info);
+    const rb_status s = solve_by_branching(&p, 0, &opt, z, &info);
     CHECK_MAX(rb_seconds() - began, 1.0, "seconds");
     if (s != RB_OK) {
         CHECK_STATUS(s, RB_TIME_LIMIT);
@@ -204,7 +204,7 @@ TEST(limits_end_the_search)
     opt = rb_lcp_defaults();
     opt.max_iters = 3;
     pose(20, 12u, 1, 0, 0, &p);
-    CHECK_STATUS(solve(&p, 0, &opt, z, &info), RB_MAXITER);
+    CHECK_STATUS(solve_by_branching(&p, 0, &opt, z, &info), RB_MAXITER);
     assert_int_equal(strncmp(info.solver, "lemke", 5), 0);
 }
 
@@ -212,7 +212,7 @@ static rb_status solve_with_little(void *context)
 {
     double z[MOST];
     rb_lcp_info info;
-    const rb_status s = solve(context, 0, NULL, z, &info);
+    const rb_status s = solve_by_branching(context, 0, NULL, z, &info);
     /* without memory for branching the end of Lemke's path is told */
     return s == RB_RAY || s == RB_SINGULAR || s == RB_MAXITER ? RB_ENOMEM : s;
 }

@@ -74,7 +74,7 @@ TEST(all_solutions_are_those_of_fractions)
         const int n = p.of_integers.n;
         exact_solutions(&p.of_integers, &of_bases, &all_points);
         CHECK_OK(
-            rb_lcp_enumerate(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, NULL, 0.0, &all, &heard));
+            rb_lcp_enumerate(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, NULL, 0.0, &all, &message));
         undecided += all.undecided;
         singular += all.singular > 0;
         solvable += all_points.count > 0;
@@ -231,7 +231,7 @@ TEST(extreme_equilibria_are_those_of_fractions)
                 count += (xs[a].labels | ys[b].labels) == (1 << (m + n)) - 1;
         OWNED(rb_lcp_solutions) all;
         const rb_lcp_game game = {m, n, A, B, m};
-        CHECK_OK(rb_lcp_bimatrix_enumerate(&game, 0.0, &all, &heard));
+        CHECK_OK(rb_lcp_bimatrix_enumerate(&game, 0.0, &all, &message));
         if (all.count != count || all.undecided)
             fail_msg("game %d: %d listed, %d undecided, there are %d", k, all.count, all.undecided,
                      count);
@@ -260,7 +260,7 @@ TEST(extreme_equilibria_are_those_of_fractions)
             }
         OWNED(rb_lcp_solutions) mirrored;
         CHECK_OK(
-            rb_lcp_bimatrix_enumerate(&(rb_lcp_game){n, m, At, Bt, n}, 0.0, &mirrored, &heard));
+            rb_lcp_bimatrix_enumerate(&(rb_lcp_game){n, m, At, Bt, n}, 0.0, &mirrored, &message));
         assert_int_equal(mirrored.count, all.count);
         assert_int_equal(mirrored.sets, all.sets);
     }

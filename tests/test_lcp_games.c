@@ -214,7 +214,7 @@ TEST(all_equilibria_of_a_game)
     OWNED(rb_lcp_solutions) all;
     int mixed = 0;
     battle_of_the_sexes();
-    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, 0.0, &all, &heard));
+    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, 0.0, &all, &message));
     assert_int_equal(all.count, 3);
     assert_int_equal(all.bases, 12); /* of both polytopes: 4 over 2 each */
     assert_int_equal(all.sets, 3);
@@ -320,21 +320,21 @@ typedef struct {
 } story;
 
 /* A label that was doubled enters next, by its other variable. */
-static void follow(const rb_lcp_pivot *seen, void *context)
+static void follow(const rb_lcp_pivot *pivot, void *context)
 {
     story *s = context;
-    assert_int_equal(seen->pivot, s->pivots);
-    assert_int_equal(seen->n, s->labels);
-    assert_int_equal(seen->attempt, 3);
-    assert_true(seen->row >= 0 && seen->row < s->labels && seen->ratio >= 0.0);
-    assert_null(seen->basis);
+    assert_int_equal(pivot->pivot, s->pivots);
+    assert_int_equal(pivot->n, s->labels);
+    assert_int_equal(pivot->attempt, 3);
+    assert_true(pivot->row >= 0 && pivot->row < s->labels && pivot->ratio >= 0.0);
+    assert_null(pivot->basis);
     if (s->pivots == 0)
-        s->first = seen->entering;
+        s->first = pivot->entering;
     else
-        assert_int_equal(seen->entering % s->labels, s->leaving % s->labels);
+        assert_int_equal(pivot->entering % s->labels, s->leaving % s->labels);
     if (s->pivots)
-        assert_int_not_equal(seen->entering, s->leaving);
-    s->leaving = seen->leaving;
+        assert_int_not_equal(pivot->entering, s->leaving);
+    s->leaving = pivot->leaving;
     s->pivots++;
 }
 
@@ -526,9 +526,10 @@ TEST(a_search_for_all_solutions_ends_in_time)
         M[i] = uniform();
     for (int i = 0; i < 16; i++)
         q[i] = uniform();
-    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){16, M, 16, q}, NULL, NULL, 1e-4, &all, &heard),
-                 RB_TIME_LIMIT);
-    assert_non_null(strstr(heard.text, "of 65536 complementary bases"));
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){16, M, 16, q}, NULL, NULL, 1e-4, &all, &message),
+        RB_TIME_LIMIT);
+    assert_non_null(strstr(message.text, "of 65536 complementary bases"));
     assert_true(all.bases > 0 && all.bases < 65536);
 }
 
@@ -545,7 +546,7 @@ TEST(too_many_bases_are_refused)
         high[i] = 1.0;
     }
     CHECK_SAYS(
-        rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, 0.0, &all, &heard),
+        rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, 0.0, &all, &message),
         RB_EINVAL, "4.78e+06 complementary bases");
 }
 
@@ -590,7 +591,7 @@ TEST(bad_input_is_named)
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
     CHECK_STATUS(rb_lcp_bimatrix(&two, -2, NULL, z, &info), RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info), RB_EINVAL);
-    CHECK_SAYS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, 0.0, &all, &heard),
+    CHECK_SAYS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, 0.0, &all, &message),
                RB_EINVAL, "a game of 2 by 0");
     const double right = A[LD];
     A[LD] = -INFINITY;
@@ -603,11 +604,12 @@ TEST(bad_input_is_named)
     B[1] = NAN;
     CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "B(2, 1)"));
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, 0.0, &all, &heard),
+    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, 0.0, &all, &message),
                RB_EINVAL, "bounds 1 are [1, 0]");
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, 0.0, &all, &heard),
-               RB_EINVAL, "order 22");
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, 0.0, &all, &heard),
+    CHECK_SAYS(
+        rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, 0.0, &all, &message),
+        RB_EINVAL, "order 22");
+    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, 0.0, &all, &message),
                RB_EINVAL, "M(2, 1) = nan");
 }
 

@@ -37,7 +37,8 @@ static double natural_residual(const problem *p, const double *z)
     return worst;
 }
 
-static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z, rb_lcp_info *info)
+static rb_status solve_mixed(const problem *p, const rb_lcp_options *opt, double *z,
+                             rb_lcp_info *info)
 {
     OWNED(rb_sparse) M;
     CHECK_OK(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M));
@@ -92,7 +93,7 @@ TEST(without_boxes_it_is_the_lcp)
     for (int k = 0; k < 300; k++) {
         positive_definite(1 + k % N, &p);
         CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL));
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         const double size = 1.0 + rb_norm_inf((size_t)p.n, want);
         CHECK_MAX(natural_residual(&p, z), 1e-12 * size, "problem %d", k);
         CHECK_MAX(info.res, 1e-12 * size, "problem %d", k);
@@ -120,7 +121,7 @@ TEST(boxes_of_all_kinds_are_solved)
     for (int k = 0; k < 600; k++) {
         positive_definite(1 + k % N, &p);
         random_boxes(&p, 5);
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         for (int i = 0; i < p.n; i++)
@@ -211,7 +212,7 @@ TEST(finite_boxes_are_solved_for_every_matrix)
         for (int i = 0; i < p.n; i++)
             p.q[i] = uniform();
         random_boxes(&p, 1);
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         assert_true(is_enumerated(&p, z, &solutions));
@@ -229,7 +230,7 @@ TEST(open_boxes_have_the_enumerated_solution)
         int solutions;
         positive_definite(1 + k % 6, &p);
         random_boxes(&p, 5);
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         assert_true(is_enumerated(&p, z, &solutions));
     }
 }
@@ -251,7 +252,7 @@ TEST(integers_full_of_ties_do_not_cycle)
             p.lower[i] = 0.0;
             p.upper[i] = 1.0 + (uniform() > 0.0);
         }
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
     }
 }
@@ -264,14 +265,14 @@ TEST(the_rule_decides_whether_kostreva_cycles)
     double z[3];
     rb_lcp_info info;
     no_boxes(&p);
-    CHECK_OK(solve(&p, NULL, z, &info));
+    CHECK_OK(solve_mixed(&p, NULL, z, &info));
     for (int i = 0; i < 3; i++)
         CHECK_REL(z[i], 1.0 / 3.0, 1e-15, "z(%d)", i + 1);
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = 20;
-    CHECK_OK(solve(&p, &opt, z, &info));
+    CHECK_OK(solve_mixed(&p, &opt, z, &info));
     opt.rule = RB_LCP_FIRST_INDEX;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_MAXITER);
 }
 
 /* ---- The path, as the trace sees it ------------------------------------------------- */
@@ -286,41 +287,41 @@ typedef struct {
     unsigned long long basis[PIVOTS]; /* a bit of each variable */
 } path;
 
-static void keep_pivot(const rb_lcp_pivot *seen, void *context)
+static void keep_pivot(const rb_lcp_pivot *pivot, void *context)
 {
     path *own = context;
-    assert_int_equal(seen->pivot, own->count);
+    assert_int_equal(pivot->pivot, own->count);
     assert_true(own->count < PIVOTS);
-    own->n = seen->n;
-    own->entering[own->count] = seen->entering;
-    own->leaving[own->count] = seen->leaving;
+    own->n = pivot->n;
+    own->entering[own->count] = pivot->entering;
+    own->leaving[own->count] = pivot->leaving;
     own->basis[own->count] = 0;
-    for (int s = 0; s < seen->n; s++)
-        own->basis[own->count] |= 1ULL << seen->basis[s];
+    for (int s = 0; s < pivot->n; s++)
+        own->basis[own->count] |= 1ULL << pivot->basis[s];
     own->count++;
 }
 
 /* Every point of the path of an LCP: z, w, t >= 0 are complementary, and w = M z + q + t
  * times the cover. */
-static void check_point(const rb_lcp_pivot *seen, void *context)
+static void check_point(const rb_lcp_pivot *pivot, void *context)
 {
     const path *own = context;
     const problem *p = own->p;
     double x[2 * N + 1] = {0}, most = 1.0;
-    keep_pivot(seen, context);
-    assert_int_equal(seen->basis[seen->row], seen->entering);
-    CHECK_ABS(seen->value[seen->row], seen->ratio, 1e-12 * (1.0 + seen->ratio), "step");
+    keep_pivot(pivot, context);
+    assert_int_equal(pivot->basis[pivot->row], pivot->entering);
+    CHECK_ABS(pivot->value[pivot->row], pivot->ratio, 1e-12 * (1.0 + pivot->ratio), "step");
     for (int s = 0; s < p->n; s++) {
-        x[seen->basis[s]] = seen->value[s];
-        most = fmax(most, seen->value[s]);
+        x[pivot->basis[s]] = pivot->value[s];
+        most = fmax(most, pivot->value[s]);
     }
-    CHECK_ABS(x[2 * p->n], seen->z0, 0.0, "t");
+    CHECK_ABS(x[2 * p->n], pivot->z0, 0.0, "t");
     for (int i = 0; i < p->n; i++) {
-        double w = p->q[i] + own->cover[i] * seen->z0;
+        double w = p->q[i] + own->cover[i] * pivot->z0;
         for (int j = 0; j < p->n; j++)
             w += p->M[i + j * p->n] * x[p->n + j];
-        CHECK_ABS(x[i], w, 1e-11 * most, "pivot %d, w(%d)", seen->pivot, i + 1);
-        CHECK_MAX(fmax(-x[i], -x[p->n + i]), 1e-11 * most, "pivot %d", seen->pivot);
+        CHECK_ABS(x[i], w, 1e-11 * most, "pivot %d, w(%d)", pivot->pivot, i + 1);
+        CHECK_MAX(fmax(-x[i], -x[p->n + i]), 1e-11 * most, "pivot %d", pivot->pivot);
         assert_true(x[i] == 0.0 || x[p->n + i] == 0.0);
     }
 }
@@ -340,7 +341,7 @@ TEST(every_point_of_the_path_solves_with_a_cover)
         for (int i = 0; i < p.n; i++)
             cover[i] = 1.5 + uniform();
         own = (path){.p = &p, .cover = cover};
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         assert_int_equal(info.iters, own.count);
         if (own.count == 0)
             continue;
@@ -370,8 +371,8 @@ TEST(a_cover_is_that_of_z_with_bounds)
             if (i % 3 == 0)
                 p.lower[i] = -INFINITY;
         }
-        CHECK_OK(solve(&p, NULL, want, NULL));
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, want, NULL));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "order %d", p.n);
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(z[i], want[i], 1e-10, "order %d, z(%d)", p.n, i + 1);
@@ -379,7 +380,7 @@ TEST(a_cover_is_that_of_z_with_bounds)
     positive_definite(4, &p);
     for (int i = 0; i < 4; i++)
         cover[i] = i != 2, p.q[i] = i == 2 ? -0.5 : 1.0;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_string_equal(info.msg.text, "lcp: cover(3) = 0: expected a number > 0, because "
                                        "w(3) = -0.5 at the start has the wrong sign");
 }
@@ -405,7 +406,7 @@ TEST(a_path_through_ties_meets_no_basis_twice)
         }
         no_boxes(&p);
         own = (path){.p = &p};
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         for (int i = 1; i < own.count; i++)
             for (int j = 0; j < i; j++)
                 if (own.basis[i] == own.basis[j])
@@ -449,7 +450,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
         opt.start = from;
         opt.trace_context = &own;
         own = (path){.p = &p};
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
 
         other = p;
         for (int i = 0; i < p.n; i++) {
@@ -463,7 +464,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
         opt.start = there;
         opt.trace_context = &theirs;
         theirs = (path){.p = &other};
-        CHECK_OK(solve(&other, &opt, at, &info));
+        CHECK_OK(solve_mixed(&other, &opt, at, &info));
         check_same_path(&own, &theirs, "moved");
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(at[i], z[i] + 3.0 + i % 4, 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -475,7 +476,7 @@ TEST(moved_and_mirrored_boxes_have_the_same_path)
             there[i] = -from[i];
         }
         theirs = (path){.p = &other};
-        CHECK_OK(solve(&other, &opt, at, &info));
+        CHECK_OK(solve_mixed(&other, &opt, at, &info));
         check_same_path(&own, &theirs, "mirrored");
         for (int i = 0; i < p.n; i++)
             CHECK_ABS(at[i], -z[i], 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -510,7 +511,7 @@ TEST(programs_with_equations_are_solved)
                 p.q[n + i] -= a * x;
             }
         }
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "program %d", k);
     }
@@ -602,10 +603,10 @@ TEST(a_free_z_without_a_column)
     static problem p = {2, {1, 0, 0, 0}, {-1, 0}, {0, -INFINITY}, {INFINITY, INFINITY}};
     double z[N];
     rb_lcp_info info;
-    CHECK_OK(solve(&p, NULL, z, &info));
+    CHECK_OK(solve_mixed(&p, NULL, z, &info));
     CHECK_ABS(z[0], 1.0, 0.0, "z(1)");
     p.q[1] = 1.0;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_NO_SOLUTION);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_NO_SOLUTION);
 }
 
 /* ---- From a given point ------------------------------------------------------------ */
@@ -621,14 +622,14 @@ TEST(a_solution_is_recognised_and_a_neighbour_is_near)
     for (int k = 0; k < 200; k++) {
         positive_definite(2 + k % (N - 1), &p);
         random_boxes(&p, 5);
-        CHECK_OK(solve(&p, NULL, from, &info));
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, from, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         assert_int_equal(info.iters, 0);
         for (int i = 0; i < p.n; i++)
             p.q[i] += 0.05 * uniform();
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         cold += info.iters;
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
                   "problem %d", k);
         warm += info.iters;
@@ -666,12 +667,12 @@ TEST(a_degenerate_solution_is_exactly_at_its_bounds)
     for (int k = 0; k < 100; k++) {
         const double side = k % 2 ? -1.0 : 1.0;
         plant_at_bounds(12, side, &p, want);
-        CHECK_OK(solve(&p, NULL, z, &info));
+        CHECK_OK(solve_mixed(&p, NULL, z, &info));
         for (int i = 0; i < p.n; i++) {
             CHECK_ABS(z[i], want[i], i % 3 ? 0.0 : 1e-12, "problem %d, z(%d)", k, i + 1);
             from[i] = want[i] + (i % 3 == 2 ? 1e-3 * side : 0.0);
         }
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         assert_int_equal(info.iters, 0);
         for (int i = 0; i < p.n; i++) {
             CHECK_ABS(z[i], want[i], 1e-12, "problem %d, z(%d)", k, i + 1);
@@ -686,18 +687,18 @@ typedef struct {
     int n;
 } heights;
 
-static void watch_t(const rb_lcp_pivot *seen, void *context)
+static void watch_t(const rb_lcp_pivot *pivot, void *context)
 {
     heights *h = context;
-    if (seen->entering == 2 * seen->n) {
+    if (pivot->entering == 2 * pivot->n) {
         h->gone += h->paths && h->last > h->first * (1.0 + 1e-9);
         h->paths++;
         h->pivots = 0;
-        h->first = seen->z0;
+        h->first = pivot->z0;
     } else if (h->paths == 1) { /* from the start: t may not be above its first value */
         assert_true(h->last <= h->first * (1.0 + 1e-9));
     }
-    h->last = seen->z0;
+    h->last = pivot->z0;
     h->pivots++;
 }
 
@@ -725,7 +726,7 @@ TEST(a_start_that_leads_away_is_given_up)
             from[i] = uniform() > 0.0 ? p.upper[i] : 0.5 * p.upper[i];
         }
         h = (heights){0};
-        CHECK_OK(solve(&p, &opt, z, &info));
+        CHECK_OK(solve_mixed(&p, &opt, z, &info));
         CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
         assert_true(h.paths <= 2);
         gone += h.gone;
@@ -741,16 +742,16 @@ TEST(limits_end_the_path)
     rb_lcp_options opt = rb_lcp_defaults();
     positive_definite(30, &p);
     opt.max_iters = 2;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_MAXITER);
     assert_int_equal(info.iters, 2);
     assert_non_null(strstr(info.msg.text, "max_iters = 2"));
     opt.max_iters = 0;
     opt.seconds = 1e-12;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_TIME_LIMIT);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_TIME_LIMIT);
     CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, &opt, z, &info),
                  RB_TIME_LIMIT);
     opt.seconds = 100.0;
-    CHECK_OK(solve(&p, &opt, z, &info));
+    CHECK_OK(solve_mixed(&p, &opt, z, &info));
 }
 
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
@@ -762,7 +763,7 @@ TEST(a_start_without_basis_begins_at_the_bounds)
     rb_lcp_options opt = rb_lcp_defaults();
     opt.start = from;
     no_boxes(&p);
-    CHECK_OK(solve(&p, &opt, z, NULL));
+    CHECK_OK(solve_mixed(&p, &opt, z, NULL));
     CHECK_MAX(natural_residual(&p, z), 1e-15, "residual");
 }
 
@@ -811,11 +812,11 @@ TEST(a_ray_names_its_variable)
     double z[1];
     rb_lcp_info info;
     no_boxes(&p);
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_NO_SOLUTION);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_NO_SOLUTION);
     assert_int_equal(info.ray_variable, 1);
     assert_non_null(strstr(info.msg.text, "z(1)"));
     p.upper[0] = 3.0; /* the box stops it */
-    CHECK_OK(solve(&p, NULL, z, &info));
+    CHECK_OK(solve_mixed(&p, NULL, z, &info));
     CHECK_REL(z[0], 3.0, 1e-15, "z(1)");
 }
 
@@ -833,16 +834,16 @@ TEST(a_ray_proves_what_is_so)
         p.lower[0] = p.lower[1] = low * far;
         p.q[0] = (-low - 1.0) * far;
         p.q[1] = (low + (open ? 1e-3 : -1e-3)) * far;
-        CHECK_STATUS(solve(&p, NULL, z, &info), open ? RB_OK : RB_NO_SOLUTION);
+        CHECK_STATUS(solve_mixed(&p, NULL, z, &info), open ? RB_OK : RB_NO_SOLUTION);
         if (open)
             CHECK_MAX(natural_residual(&p, z), 1e-12 * far, "case %d", k);
     }
     /* z <= 1 where w <= 0: w = -z - 2 < 0 there; w = 2 - z > 0 everywhere */
     static problem q = {1, {-1.0}, {-2.0}, {-INFINITY}, {1.0}};
-    CHECK_OK(solve(&q, NULL, z, &info));
+    CHECK_OK(solve_mixed(&q, NULL, z, &info));
     CHECK_MAX(natural_residual(&q, z), 0.0, "at its upper bound or not");
     q.q[0] = 2.0;
-    CHECK_STATUS(solve(&q, NULL, z, &info), RB_NO_SOLUTION);
+    CHECK_STATUS(solve_mixed(&q, NULL, z, &info), RB_NO_SOLUTION);
 }
 
 TEST(bad_input_is_named)
@@ -856,42 +857,42 @@ TEST(bad_input_is_named)
     p.q[0] = -1.0;
     p.lower[1] = 2.0;
     p.upper[1] = 1.0;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "bounds 2 are [2, 1]"));
     p.lower[1] = INFINITY;
     p.upper[1] = INFINITY;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_EINVAL);
     p.lower[1] = -INFINITY;
     p.upper[1] = -INFINITY;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "bounds 2 are [-inf, -inf]"));
     no_boxes(&p);
     opt.max_iters = -1;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "max_iters = -1"));
     opt.max_iters = 0;
     p.upper[0] = NAN;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_EINVAL);
     no_boxes(&p);
     opt.start = bad;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "start(1) = nan"));
     opt.start = NULL;
     opt.cover = bad;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "cover(1) = nan"));
     opt.cover = none;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "cover(1) = 0"));
     const double negative[] = {1.0, -1.0}, endless[] = {1.0, INFINITY};
     opt.cover = negative;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "cover(2) = -1"));
     opt.cover = endless;
-    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "cover(2) = inf"));
     p.M[0] = NAN;
-    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(solve_mixed(&p, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
     rb_sparse wide, empty = {.rows = 0};
     CHECK_OK(rb_sparse_from_dense(1, 2, endless, 1, &wide));

@@ -78,7 +78,7 @@ static double judge(const problem *p, const double *scaled_z)
 }
 
 /* By each solver; a claim that is wrong fails.  Returns how many solved it. */
-static int solve(const problem *p, int k)
+static int solve_scaled(const problem *p, int k)
 {
     const int n = p->n;
     const rb_lcp_problem dense = {n, p->scaled, n, p->scaled_q};
@@ -112,7 +112,7 @@ TEST(claims_of_scaled_problems_are_right)
     int solved = 0;
     for (int k = 0; k < problems; k++) {
         make(&p, k % KINDS, k % 50 == 49 ? LARGEST : 1 + k % 17, 40.0);
-        solved += solve(&p, k);
+        solved += solve_scaled(&p, k);
     }
     print_message("%d problems: %d of %d claims, none wrong\n", problems, solved, 3 * problems);
     assert_int_equal(solved, 3 * problems);
@@ -176,15 +176,15 @@ typedef struct {
 
 /* basic = last column + columns times nonbasic satisfies w = M z + q of the caller, where
  * the nonbasic variables are zero. */
-static void follow(const rb_lcp_pivot *seen, void *context)
+static void follow(const rb_lcp_pivot *pivot, void *context)
 {
     follower *f = context;
     const problem *p = f->p;
-    const int n = seen->n;
+    const int n = pivot->n;
     double x[2 * LARGEST + 1] = {0}, cover = NAN;
     for (int i = 0; i < n; i++) {
-        x[seen->basis[i]] = seen->value[i];
-        assert_true(seen->value[i] == seen->tableau[i + (size_t)(n + 1) * n]);
+        x[pivot->basis[i]] = pivot->value[i];
+        assert_true(pivot->value[i] == pivot->tableau[i + (size_t)(n + 1) * n]);
     }
     f->pivots++;
     for (int i = 0; i < n; i++) {
@@ -277,7 +277,7 @@ TEST(far_solutions_of_nearly_singular_bases_are_listed)
                         2 - e, 1 + e, -e,     -2 + e,     3 + e,      -2, 2 - e,      -2 * e},
                  q[] = {3, -1, 2, 4}, far[] = {0, 82463372082.48, 82463372083.28, 41231686042.34};
     OWNED(rb_lcp_solutions) all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){4, M, 4, q}, NULL, NULL, 0.0, &all, &heard));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){4, M, 4, q}, NULL, NULL, 0.0, &all, &message));
     assert_int_equal(all.count, 2);
     assert_int_equal(all.undecided, 0);
     const int at = all.z[1] > 1e9 ? 0 : 1; /* by fractions */

@@ -74,12 +74,12 @@ static void write_all(char *text, size_t size)
         {"contact-elements", "12"},       {"relaxation-time", "0.01,0.1"},
         {"relaxation-ratio", "0.5,0.25"}, {"speed", "12.5"}};
     for (size_t k = 0; k < sizeof given / sizeof *given; k++)
-        CHECK_OK(rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &heard));
-    CHECK_OK(rb_case_set_number(words, "load", 123.456, &heard));
-    CHECK_OK(rb_case_resolve(words, &heard));
+        CHECK_OK(rb_case_set(words, given[k][0], given[k][1], RB_GIVEN_ARGUMENT, &message));
+    CHECK_OK(rb_case_set_number(words, "load", 123.456, &message));
+    CHECK_OK(rb_case_resolve(words, &message));
     const rb_resolved_case *c = rb_case_resolved(words);
     CHECK_REL(c->rc.load, 123.456, 1e-15, "load");
-    CHECK_OK(rb_case_solve(c, NULL, NULL, &result, &heard));
+    CHECK_OK(rb_case_solve(c, NULL, NULL, &result, &message));
     const rb_rolling_solution *s = &result.solution;
     const rb_report_style style = {0};
     CHECK_OK(rb_report_table(out, &c->rc, s, "rollbem", &style));
@@ -90,7 +90,7 @@ static void write_all(char *text, size_t size)
     assert_int_equal(fclose(out), 0);
 
     OWNED(rb_io_table) t;
-    CHECK_OK(rb_io_table_read("gap.txt", &t, &heard));
+    CHECK_OK(rb_io_table_read("gap.txt", &t, &message));
     CHECK_REL(t.x[1], 0.5, 1e-15, "x");
 }
 

@@ -46,9 +46,9 @@ TEST(solutions_have_the_zones_that_were_found)
         held_case *c = case_of(RB_CASE_SINGLE, &cases[k].of, NULL, 0.0);
         rb_case_result r = {.has_errors = 0};
         rb_contact_proof proof;
-        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
-            fail_msg("%s: %s", name, heard.text);
-        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &heard));
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) != RB_OK)
+            fail_msg("%s: %s", name, message.text);
+        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &message));
         if (!proof.proved)
             fail_msg("%s: %s (%s)", name, proof.reason, proof.where);
         CHECK_MAX(proof.bound_p, within, "p: %s", name);
@@ -67,12 +67,12 @@ TEST(wrong_tractions_are_far_from_what_is_proved)
     held_case *c = case_of(RB_CASE_SINGLE, &cases[2].of, NULL, 0.0);
     rb_case_result r = {.has_errors = 0};
     rb_contact_proof proof;
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
     rb_contact_state *found = &r.model.state;
     const int middle = found->n / 2;
     const double p0 = rb_norm_inf((size_t)found->n, found->p), before = found->p[middle];
     found->p[middle] = before * (1.0 + 1e-6);
-    CHECK_OK(rb_contact_prove(&r.model.problem, found, &proof, &heard));
+    CHECK_OK(rb_contact_prove(&r.model.problem, found, &proof, &message));
     assert_true(proof.proved);
     CHECK_ABS(proof.stored_within, 1e-6 * before / p0, 1e-8, "distance");
     CHECK_MAX(1e-9, proof.nearby, "data nearby");
@@ -105,9 +105,9 @@ TEST(solutions_are_unique_where_that_is_shown)
         held_case *c = case_of(RB_CASE_SINGLE, &rows[k].of, NULL, 0.0);
         rb_case_result r = {.has_errors = 0};
         rb_contact_proof proof;
-        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) < 0)
-            fail_msg("%s: %s", rows[k].of.word[0], heard.text);
-        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &heard));
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message) < 0)
+            fail_msg("%s: %s", rows[k].of.word[0], message.text);
+        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &message));
         if (strcmp(proof.unique, rows[k].unique) != 0)
             fail_msg("%s: %s", rows[k].of.word[0], proof.unique);
         rb_case_result_free(&r);
@@ -155,7 +155,7 @@ TEST(proofs_without_memory_are_said)
 {
     held_case *c = case_of(RB_CASE_SINGLE, &cases[10].of, NULL, 0.0);
     rb_case_result r = {.has_errors = 0};
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
     assert_true(alloc_fail_each(prove_case, &r) > 30);
     rb_case_result_free(&r);
 }

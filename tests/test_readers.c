@@ -67,10 +67,10 @@ static void check_tables(const char *command, const char *script)
     write_file("script", script);
     if (shell(command) != 0)
         fail_msg("%s: %s\n%s", command, out, err);
-    assert_int_equal(shell("grep -c . seen >/dev/null && for f in *.tsv; do "
+    assert_int_equal(shell("grep -c . listed >/dev/null && for f in *.tsv; do "
                            "n=$(grep -v '^#' $f | tail -n +2 | wc -l); "
                            "m=$(head -1 $f | awk -F '\\t' '{print NF}'); "
-                           "grep -qx \"$f $n $m\" seen || { echo \"$f $n $m\"; exit 1; }; done"),
+                           "grep -qx \"$f $n $m\" listed || { echo \"$f $n $m\"; exit 1; }; done"),
                      0);
 }
 
@@ -86,7 +86,7 @@ TEST(pandas_opens_all)
 {
     skip_without("/usr/bin/python3 -c 'import pandas'", "pandas");
     check_lines("/usr/bin/python3 lines", "python", 0);
-    check_tables("/usr/bin/python3 script >seen",
+    check_tables("/usr/bin/python3 script >listed",
                  "import glob, pandas\n"
                  "for f in glob.glob('*.tsv'):\n"
                  "    t = pandas.read_csv(f, sep='\\t', comment='#')\n"
@@ -102,7 +102,7 @@ TEST(numpy_opens_all)
 {
     skip_without("/usr/bin/python3 -c 'import numpy'", "numpy");
     check_lines("/usr/bin/python3 lines", "python", 1);
-    check_tables("/usr/bin/python3 script >seen",
+    check_tables("/usr/bin/python3 script >listed",
                  "import glob, numpy\n"
                  "for f in glob.glob('*.tsv'):\n"
                  "    t = numpy.atleast_1d(numpy.genfromtxt(f, names=True))\n"
@@ -113,7 +113,7 @@ TEST(r_opens_all)
 {
     skip_without("Rscript --version", "R");
     check_lines("Rscript --vanilla lines", "r", 0);
-    check_tables("Rscript --vanilla script >seen",
+    check_tables("Rscript --vanilla script >listed",
                  "for (f in Sys.glob('*.tsv')) {\n"
                  "  t <- read.table(f, header = TRUE)\n"
                  "  if (f == 'history.tsv') stopifnot(all(sapply(t, is.numeric)))\n"
@@ -130,15 +130,15 @@ TEST(octave_opens_all)
                "printf('%d %d %d', columns(t.data), columns(u.data), rows(u.data));\n");
     if (shell("octave-cli --no-init-file --quiet script") != 0)
         print_error("%s\n", err);
-    int seen[3] = {0}, wanted[2] = {0};
-    assert_int_equal(sscanf(out, "%d %d %d", &seen[0], &seen[1], &seen[2]), 3);
+    int counted[3] = {0}, wanted[2] = {0};
+    assert_int_equal(sscanf(out, "%d %d %d", &counted[0], &counted[1], &counted[2]), 3);
     assert_int_equal(shell("for f in history curve; do head -1 $f.tsv | awk -F '\\t' "
                            "'{print NF}'; done"),
                      0);
     assert_int_equal(sscanf(out, "%d %d", &wanted[0], &wanted[1]), 2);
-    assert_int_equal(seen[0], wanted[0]);
-    assert_int_equal(seen[1], wanted[1]);
-    assert_int_equal(seen[2], 6);
+    assert_int_equal(counted[0], wanted[0]);
+    assert_int_equal(counted[1], wanted[1]);
+    assert_int_equal(counted[2], 6);
 }
 
 TEST(gnuplot_opens_all)

@@ -354,9 +354,9 @@ TEST(pictures_of_every_kind)
     for (int k = 0; k < 5; k++) {
         rb_report_picture_kind kind;
         FILE *file = tmpfile();
-        assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &heard), RB_OK);
-        assert_int_equal(rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &heard),
-                         RB_OK);
+        assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &message), RB_OK);
+        assert_int_equal(
+            rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &message), RB_OK);
         assert_int_equal(strncmp(content(file), starts[k], strlen(starts[k])), 0);
         fclose(file);
     }
@@ -518,7 +518,7 @@ TEST(history_of_few_steps_is_drawn)
     h.normal_load[0] = 100.0;
     h.contact_from[0] = -1.0;
     h.contact_to[0] = 3.0;
-    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &message));
     const char *script = content(out);
     assert_non_null(strstr(script, "x_from = 1.0\nx_to = 1.000001\n"));
     assert_non_null(strstr(script, "band_force\n1 0.25 0 0.75 0 0\nEOD"));
@@ -527,7 +527,7 @@ TEST(history_of_few_steps_is_drawn)
 
     out = tmpfile();
     h.n = 17; /* from 1 on: eight marks of two increments */
-    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &message));
     assert_non_null(strstr(content(out), "x_step = 2.0\n"));
     fclose(out);
 
@@ -536,7 +536,7 @@ TEST(history_of_few_steps_is_drawn)
     h.time = column[9];
     h.time[1] = 0.5;
     h.contact_from[1] = h.contact_to[1] = NAN;
-    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &message));
     script = content(out);
     assert_non_null(strstr(script, "Static contact in time}   2 steps"));
     assert_non_null(strstr(script, "band_approach\n0 2 100 0 0 0 0\n0.5 0 0 0 0 0 0\nEOD"));
@@ -565,7 +565,7 @@ TEST(what_is_not_known_is_left_out)
         for (int title = 0; title < 2; title++) {
             FILE *file = tmpfile();
             if (title)
-                CHECK_OK(rb_report_picture(file, canvas, &rc, &s, &heard));
+                CHECK_OK(rb_report_picture(file, canvas, &rc, &s, &message));
             else
                 rb_report_summary(file, &s, 80);
             const char *text = content(file);
@@ -605,7 +605,7 @@ TEST(picture_without_contact_says_so)
     memset(s.zone, 0, N * sizeof *s.zone);
     s.contact = s.stick = s.slipping = 0;
     s.half_width = s.max_pressure = s.normal_load = s.tangential_load = 0.0;
-    CHECK_OK(rb_report_picture(out, canvas, &rc, &s, &heard));
+    CHECK_OK(rb_report_picture(out, canvas, &rc, &s, &message));
     const char *script = content(out);
     assert_non_null(strstr(script, "results = '{/*0.95 no contact}'"));
     assert_non_null(strstr(script, "x_from = -1.25\nx_to = 1.25\n")); /* all elements */
@@ -668,7 +668,7 @@ TEST(profiles_are_drawn)
                                              .script = 1};
             char title[100];
             FILE *out = tmpfile();
-            CHECK_OK(rb_report_profiles_picture(out, canvas, &profiles, &heard));
+            CHECK_OK(rb_report_profiles_picture(out, canvas, &profiles, &message));
             const char *script = content(out);
             snprintf(title, sizeof title, "Performance profiles}   %d problem%s'", problems,
                      problems > 1 ? "s" : "");
@@ -698,7 +698,7 @@ TEST(start_up_files_are_off)
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
     const rb_status status =
-        rb_report_picture(out, (rb_report_canvas){.kind = RB_REPORT_SVG}, &rc, &s, &heard);
+        rb_report_picture(out, (rb_report_canvas){.kind = RB_REPORT_SVG}, &rc, &s, &message);
     setenv("HOME", home, 1);
     unlink(name);
     rmdir(folder);

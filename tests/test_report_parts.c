@@ -193,9 +193,9 @@ static rb_report_study study_of(int nx, int ny, int with_y, double *room)
         value[k] = x[k] * y[k];
     }
     return (rb_report_study){.n = nx * ny,
-                             .x = {"load", "N/mm", x},
-                             .y = {"mu", "", with_y ? y : NULL},
-                             .shown = {"max_pressure", "MPa", value}};
+                             .x = {"load", "N/mm", x, NULL},
+                             .y = {"mu", "", with_y ? y : NULL, NULL},
+                             .shown = {"max_pressure", "MPa", value, NULL}};
 }
 
 TEST(studies_that_make_no_picture_are_named)
@@ -249,7 +249,7 @@ static const char *drawn(const rb_report_study *s, int map)
 {
     const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
     FILE *out = tmpfile();
-    CHECK_OK(rb_report_study_picture(out, canvas, s, map, &heard));
+    CHECK_OK(rb_report_study_picture(out, canvas, s, map, &message));
     const char *script = content(out);
     fclose(out);
     return script;
@@ -339,20 +339,20 @@ TEST(vtk_files_are_known_by_their_names)
 {
     static const char *const none[] = {"a", "a.vtk", ".", "vti", "a.vti.gz"};
     rb_report_vtk_kind kind;
-    CHECK_OK(rb_report_vtk_kind_of("a.b.vti", &kind, &heard));
+    CHECK_OK(rb_report_vtk_kind_of("a.b.vti", &kind, &message));
     assert_int_equal(kind, RB_REPORT_VTI);
-    CHECK_OK(rb_report_vtk_kind_of(".vtu", &kind, &heard));
+    CHECK_OK(rb_report_vtk_kind_of(".vtu", &kind, &message));
     assert_int_equal(kind, RB_REPORT_VTU);
     for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
-        CHECK_SAYS(rb_report_vtk_kind_of(none[k], &kind, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_report_vtk_kind_of(none[k], &kind, &message), RB_EINVAL,
                    "expected a name ending in .vti or .vtu");
     }
 }
 
-static void solve(const words *w, rb_case_result *result)
+static void solve_words(const words *w, rb_case_result *result)
 {
     held_case *c = case_of(RB_CASE_SINGLE, w, NULL, 0.0);
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &message));
 }
 
 static const words wheels = {{"contact-elements 6 outer-elements 24 support hub support-b hub "
@@ -398,15 +398,15 @@ TEST(matrices_are_written_all_or_none)
     char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
     OWNED(rb_case_result) two = {0}, flat = {0};
-    solve(&wheels, &two);
-    solve(&planes, &flat);
+    solve_words(&wheels, &two);
+    solve_words(&planes, &flat);
     dump_job j = {folder, &two.model};
-    CHECK_OK(rb_report_dump(folder, &two.model, &heard));
+    CHECK_OK(rb_report_dump(folder, &two.model, &message));
     assert_int_equal(files_in(folder), 12); /* two meshes, H, G; contact, F; LCP: four */
-    CHECK_OK(rb_report_dump(folder, &flat.model, &heard));
+    CHECK_OK(rb_report_dump(folder, &flat.model, &message));
     assert_int_equal(files_in(folder), 6);
     assert_true(alloc_fail_every_call(dump, &j) > 10);
-    CHECK_SAYS(rb_report_dump("/dev/null/d", &flat.model, &heard), RB_EWRITE,
+    CHECK_SAYS(rb_report_dump("/dev/null/d", &flat.model, &message), RB_EWRITE,
                "/dev/null/d: cannot write");
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);

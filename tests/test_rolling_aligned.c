@@ -129,13 +129,13 @@ TEST(wheels_take_aligned_elements_too)
 TEST(what_cannot_be_aligned_is_refused)
 {
     rb_rolling_case rc = with(carter(60), "contact-elements 8");
-    CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, "aligned");
+    CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, "aligned");
     rc = carter(60);
     rc.formulation = RB_STATIC;
-    CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, "steady");
+    CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, "steady");
     rc = carter(60);
     rc.mesh = RB_MESH_FITTED;
-    CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, "equal elements");
+    CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, "equal elements");
 }
 
 /* Where an edge jumps between two meshes, the pressure at it is no square root; the edge

@@ -124,10 +124,10 @@ TEST(at_rest_relaxing_bodies_need_steps_in_time)
     rc.formulation = RB_STATIC;
     OWNED(rb_rolling_mesh) mesh;
     OWNED(rb_rolling_bodies) bodies;
-    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &heard));
-    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "relaxation-time: bodies that relax and do not roll steadily "
-                                    "need a history of steps in time");
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &message));
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &message), RB_EINVAL);
+    assert_string_equal(message.text, "relaxation-time: bodies that relax and do not roll steadily "
+                                      "need a history of steps in time");
 }
 
 TEST(absurd_sizes_are_refused)
@@ -139,7 +139,7 @@ TEST(absurd_sizes_are_refused)
 
     CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
     rc.contact.solver = RB_SOLVER_LEMKE;
-    CHECK_SAYS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &message), RB_EINVAL,
                "a contact of 1000000 elements would need 1.92e+05");
     set(&rc, "support hub solver newton");
     CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300), "a wheel");

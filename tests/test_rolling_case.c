@@ -41,7 +41,7 @@ TEST(bad_values_are_refused_by_name)
     for (size_t k = 0; k < sizeof bad_values / sizeof *bad_values; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         memcpy((char *)&rc + bad_values[k].field, &bad_values[k].value, sizeof(double));
-        CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, bad_values[k].word);
+        CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, bad_values[k].word);
     }
 }
 
@@ -174,8 +174,8 @@ TEST(any_two_controls_are_refused)
                     memcpy((char *)&rc + lists[l].field[i], &lists[l].value, sizeof(double));
             if (given & (given - 1))
                 check_refused(&rc, lists[l].text, "");
-            else if (rb_rolling_case_check(&rc, &heard) != RB_OK)
-                fail_msg("list %d, control %d: %s", (int)l, given, heard.text);
+            else if (rb_rolling_case_check(&rc, &message) != RB_OK)
+                fail_msg("list %d, control %d: %s", (int)l, given, message.text);
         }
     for (int i = 0; i < 5; i++) {
         static const size_t field[5] = {FIELD(shift), FIELD(creep), FIELD(creep_ratio),

@@ -26,8 +26,8 @@ TEST(cone_solvers_agree_with_lemke)
         rb_contact_options by = rb_contact_defaults();
         by.solver = RB_SOLVER_CONE;
         by.cone_solver = rb_friction_cone_solver(names[k]);
-        if (rb_contact_solve(&model.problem, &by, 0, &cone, &heard) != RB_OK)
-            fail_msg("%s: %s", names[k], heard.text);
+        if (rb_contact_solve(&model.problem, &by, 0, &cone, &message) != RB_OK)
+            fail_msg("%s: %s", names[k], message.text);
         assert_int_equal(cone.solver, RB_SOLVER_CONE);
         for (int i = 0; i < cone.n; i++) {
             CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress, "%s: p %d",
@@ -44,13 +44,13 @@ TEST(a_case_may_name_a_cone_solver)
     OWNED(rb_rolling_solution) cone;
     OWNED(rb_rolling_solution) lemke = solved(&rc);
     rc.contact.solver = RB_SOLVER_CONE;
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &message), RB_EINVAL);
     rc.contact.cone_solver.name = "nsn-ac"; /* nobody has handed it in */
-    CHECK_SAYS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL, "nsn-ac");
+    CHECK_SAYS(rb_rolling_solve(&rc, &cone, &message), RB_EINVAL, "nsn-ac");
     rc.contact.cone_solver = rb_friction_cone_solver("no-such");
-    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &message), RB_EINVAL);
     rc.contact.cone_solver = rb_friction_cone_solver("nsn-ac");
-    CHECK_OK(rb_rolling_solve(&rc, &cone, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &cone, &message));
     assert_int_equal(cone.solver, RB_SOLVER_CONE);
     CHECK_MAX(cone.residual, 1e-10, "residual");
     CHECK_ABS(cone.force_ratio, lemke.force_ratio, 1e-9, "Q");

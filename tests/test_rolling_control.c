@@ -39,8 +39,8 @@ TEST(lemke_and_newton_agree_on_500_cases)
         rb_rolling_case rc = with(random_case(1e-4, 1.0), "solver lemke");
         OWNED(rb_rolling_model) model;
         OWNED(rb_contact_state) newton;
-        if (rb_rolling_model_create(&rc, &model, &heard) != RB_OK)
-            fail_msg("case %d: %s", k, heard.text);
+        if (rb_rolling_model_create(&rc, &model, &message) != RB_OK)
+            fail_msg("case %d: %s", k, message.text);
         CHECK_OK(rb_contact_state_alloc(model.mesh.n, &newton));
         rc.contact.solver = RB_SOLVER_NEWTON;
         CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL));
@@ -61,8 +61,8 @@ TEST(force_control_never_fails_on_the_halfplane)
         OWNED(rb_rolling_solution) s;
         set(&rc, "formulation steady creep-ratio nan shift nan");
         rc.force_ratio = k % 4 ? between(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
-        if (rb_rolling_solve(&rc, &s, &heard) != RB_OK)
-            fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio, heard.text);
+        if (rb_rolling_solve(&rc, &s, &message) != RB_OK)
+            fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio, message.text);
         CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
         CHECK_MAX(s.load_error, 1e-10, "case %d", k);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
@@ -118,18 +118,18 @@ TEST(approach_control_finds_the_force_too_large)
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
     set(&rc, "support halfplane formulation steady approach 1e-4 force-ratio -0.5");
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
     CHECK_ABS(s.force_ratio, -0.5, 1e-10, "force ratio under approach control");
     const double bound = rc.mu * s.normal_load;
     rb_rolling_solution_free(&s);
 
     set(&rc, "force-ratio nan force %g", 0.7 * bound);
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
     CHECK_REL(s.tangential_load, 0.7 * bound, 1e-10, "force under approach control");
     rb_rolling_solution_free(&s);
 
     rc.force = 1.5 * bound;
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "friction carries at most");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "friction carries at most");
     rb_rolling_solution_free(&s);
 }
 

@@ -29,14 +29,14 @@ static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, do
     double *F = malloc(sizeof(double) * 4 * M * N);
 
     equal_ends(half, ends);
-    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &message));
     if (cylinder.cover > 0.0 && core.shear > 0.0) {
-        CHECK_OK(rb_bem_mesh_core(&cylinder, &mesh, &inner, &heard));
-        CHECK_OK(rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &heard));
+        CHECK_OK(rb_bem_mesh_core(&cylinder, &mesh, &inner, &message));
+        CHECK_OK(rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &message));
     } else {
-        CHECK_OK(rb_bem_system_create(&mesh, rubber, &system, &heard));
+        CHECK_OK(rb_bem_system_create(&mesh, rubber, &system, &message));
     }
-    CHECK_OK(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &heard));
+    CHECK_OK(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &message));
     CHECK_OK(rb_bem_flexibility_matrix(&f, F, 2 * M));
     return F;
 }
@@ -108,7 +108,7 @@ static int elements_of(rb_bem_cylinder cylinder, double half)
     OWNED(rb_bem_mesh) mesh;
 
     equal_ends(half, ends);
-    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &heard));
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &message));
     return mesh.n;
 }
 
@@ -177,7 +177,7 @@ TEST(a_core_needs_its_cover)
             rolling_case("support hub core-young %g core-poisson 0.3 contact-elements 12 load 1000",
                          core ? 10.0 : 0.0);
         OWNED(rb_rolling_solution) s;
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        CHECK_OK(rb_rolling_solve(&rc, &s, &message));
         approach[core] = s.approach;
     }
     CHECK_REL(approach[1], approach[0], 1e-14, "approach");
@@ -197,12 +197,12 @@ TEST(an_incompressible_cover_has_an_elastic_core)
         rc.a.poisson = k < 3 ? poisson[k] : 0.5;
         if (k >= 3)
             rc.a.core_young = k == 3 ? 1e7 : 0.0;
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        CHECK_OK(rb_rolling_solve(&rc, &s, &message));
         *(k < 3 ? &p0[k] : &hard[k - 3]) = s.max_pressure;
         OWNED(rb_rolling_model) model;
-        CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
+        CHECK_OK(rb_rolling_model_create(&rc, &model, &message));
         OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
-        CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &heard));
+        CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &message));
         *(k < 3 ? &mises[k] : &hard_mises[k - 3]) = m.von_mises.value;
     }
     CHECK_REL(mises[1], mises[2], 1e-4, "nu = .49999: stress");
@@ -220,18 +220,18 @@ TEST(what_does_not_fit_is_refused)
     const rb_bem_material soft = {3.0, 0.3}, jelly = {3.0, 0.5};
     rb_bem_mesh mesh, core, other, none;
     rb_bem_system *system;
-    CHECK_OK(rb_bem_mesh_cylinder(&c, 2, ends, &mesh, &heard));
-    CHECK_OK(rb_bem_mesh_core(&c, &mesh, &core, &heard));
-    CHECK_SAYS(rb_bem_system_create_bonded(&mesh, jelly, &core, soft, &system, &heard), RB_EINVAL,
+    CHECK_OK(rb_bem_mesh_cylinder(&c, 2, ends, &mesh, &message));
+    CHECK_OK(rb_bem_mesh_core(&c, &mesh, &core, &message));
+    CHECK_SAYS(rb_bem_system_create_bonded(&mesh, jelly, &core, soft, &system, &message), RB_EINVAL,
                "below 1/2");
     c.cover = 6.0;
-    CHECK_OK(rb_bem_mesh_cylinder(&c, 2, ends, &other, &heard));
-    CHECK_SAYS(rb_bem_system_create_bonded(&other, soft, &core, soft, &system, &heard), RB_EINVAL,
+    CHECK_OK(rb_bem_mesh_cylinder(&c, 2, ends, &other, &message));
+    CHECK_SAYS(rb_bem_system_create_bonded(&other, soft, &core, soft, &system, &message), RB_EINVAL,
                "bond");
     c.hub_ratio = 0.94;
-    CHECK_SAYS(rb_bem_mesh_core(&c, &other, &none, &heard), RB_EINVAL, "hub of radius");
+    CHECK_SAYS(rb_bem_mesh_core(&c, &other, &none, &message), RB_EINVAL, "hub of radius");
     c.cover = 100.0;
-    CHECK_SAYS(rb_bem_mesh_cylinder(&c, 2, ends, &none, &heard), RB_EINVAL, "cover");
+    CHECK_SAYS(rb_bem_mesh_cylinder(&c, 2, ends, &none, &message), RB_EINVAL, "cover");
     rb_bem_mesh_free(&mesh);
     rb_bem_mesh_free(&core);
     rb_bem_mesh_free(&other);
@@ -263,7 +263,7 @@ static rb_rolling_case flat(rb_rolling_case rc)
 
 static void solved(const rb_rolling_case *rc, rb_rolling_solution *s)
 {
-    CHECK_OK(rb_rolling_solve(rc, s, &heard));
+    CHECK_OK(rb_rolling_solve(rc, s, &message));
     assert_true(s->residual < 1e-9);
 }
 
@@ -358,16 +358,16 @@ TEST(the_bond_carries_the_load)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) s;
         rc.outer_refinement = 2.0;
-        CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &heard));
+        CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &message));
         if (k)
             CHECK_ABS(s.support_balance, 0.0, 2e-3, "balance");
         else /* by waves, each of which is in equilibrium */
             assert_true(isnan(s.support_balance));
-        CHECK_OK(rb_rolling_stress_at(&model, POINTS, xy, at[k], &heard));
+        CHECK_OK(rb_rolling_stress_at(&model, POINTS, xy, at[k], &message));
         const double core[] = {0.0, 50.0};
         rb_rolling_stress none;
         if (!k)
-            CHECK_STATUS(rb_rolling_stress_at(&model, 1, core, &none, &heard), RB_EINVAL);
+            CHECK_STATUS(rb_rolling_stress_at(&model, 1, core, &none, &message), RB_EINVAL);
         for (int i = 0; k && i < POINTS; i++) {
             CHECK_ABS(at[0][i].syy, at[1][i].syy, 1e-3 * s.max_pressure, "syy %d", i);
             CHECK_ABS(at[0][i].sxx, at[1][i].sxx, 2e-3 * s.max_pressure, "sxx %d", i);
@@ -391,7 +391,7 @@ TEST(bad_covers_are_refused)
             rc.near_field = RB_NEAR_FIELD_PLAIN;
         if (k == 4)
             rc.a.hub_ratio = 0.95;
-        CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, word[k]);
+        CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, word[k]);
     }
 }
 
@@ -405,7 +405,8 @@ TEST(a_cover_that_nothing_holds_is_singular)
     OWNED(rb_rolling_curve) curve;
     set(&rc, "half-width 1 contact-elements 8 mesh uniform");
     for (int k = 0; k < 2; k++) {
-        CHECK_SAYS(rb_rolling_solve_model_reuse(&rc, &model, &s, &heard), RB_SINGULAR, "singular");
+        CHECK_SAYS(rb_rolling_solve_model_reuse(&rc, &model, &s, &message), RB_SINGULAR,
+                   "singular");
         assert_null(s.p);
         assert_int_equal(s.status, RB_SINGULAR);
         rb_rolling_solution_free(&s);
@@ -414,12 +415,12 @@ TEST(a_cover_that_nothing_holds_is_singular)
     set(&relaxing, "formulation steady speed 1 relaxation-time 1 relaxation-ratio 1");
     CHECK_STATUS(rb_rolling_curve_solve(
                      &relaxing, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2, RB_UNITS_MM},
-                     &curve, &heard),
+                     &curve, &message),
                  RB_SINGULAR);
     assert_int_equal(curve.n, 2); /* points keep their places */
     assert_int_equal(curve.unsolved, 2);
     rc.a.core_young = 1e5;
-    CHECK_OK(rb_rolling_solve_model_reuse(&rc, &model, &s, &heard));
+    CHECK_OK(rb_rolling_solve_model_reuse(&rc, &model, &s, &message));
     rb_rolling_solution_free(&s);
 }
 
@@ -428,13 +429,13 @@ TEST(elements_longer_than_the_cover_are_refused)
 {
     rb_rolling_case rc = with(roll(0.2, 0.5, 0.0), "half-width 1 contact-elements 6");
     OWNED(rb_rolling_solution) s;
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL,
                "cover-thickness: with nu = 0.5 the elements");
-    assert_non_null(strstr(heard.text, "may not be longer than the thickness, 0.2 mm"));
-    const char *advice = strstr(heard.text, "; take ");
+    assert_non_null(strstr(message.text, "may not be longer than the thickness, 0.2 mm"));
+    const char *advice = strstr(message.text, "; take ");
     assert_int_equal(advice ? sscanf(advice, "; take %d", &rc.contact_elements) : 0, 1);
     assert_int_equal(rc.contact_elements, 7); /* 6 of 0.216 mm */
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
 }
 
 RUN_TESTS(NULL, NULL)

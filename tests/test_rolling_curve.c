@@ -21,7 +21,7 @@ static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
     const rb_rolling_range range = {.over = over, .from = from, .to = to, .points = points};
     rb_rolling_curve c;
     const double start = rb_seconds();
-    CHECK_OK(rb_rolling_curve_solve(rc, &range, &c, &heard));
+    CHECK_OK(rb_rolling_curve_solve(rc, &range, &c, &message));
     CHECK_MAX(c.seconds, rb_seconds() - start, "no more than have passed");
     CHECK_MAX(-c.seconds, 0.0, "time");
     return c;
@@ -110,7 +110,7 @@ TEST(a_curve_without_contact_says_so)
     rb_rolling_case rc = with(relaxing(), "load nan approach 1e-9 zone 1 contact-elements 4");
     OWNED(rb_rolling_curve) c;
     const rb_rolling_range range = {.over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
-    CHECK_SAYS(rb_rolling_curve_solve(&rc, &range, &c, &heard), RB_NO_CONTACT, "no contact");
+    CHECK_SAYS(rb_rolling_curve_solve(&rc, &range, &c, &message), RB_NO_CONTACT, "no contact");
     assert_int_equal(c.n, 1);
     CHECK_ABS(c.stick_ratio[0], 0.0, 0.0, "nothing sticks");
     CHECK_ABS(c.stick_step, 0.0, 0.0, "nothing sticks");
@@ -195,7 +195,7 @@ TEST(speeds_change_the_friction_of_a_law)
 static void refused(rb_rolling_case rc, rb_rolling_range range, const char *words)
 {
     OWNED(rb_rolling_curve) c;
-    CHECK_SAYS(rb_rolling_curve_solve(&rc, &range, &c, &heard), RB_EINVAL, words);
+    CHECK_SAYS(rb_rolling_curve_solve(&rc, &range, &c, &message), RB_EINVAL, words);
     assert_int_equal(c.n, 0);
 }
 
@@ -252,7 +252,7 @@ TEST(a_hundredth_of_the_half_width_is_followed)
         const double moved =
             fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) / (0.5 * (to[0] - from[0]));
         OWNED(rb_rolling_curve) c;
-        CHECK_OK(rb_rolling_curve_observe(&rc, &range, note_mesh, begins, &c, &heard));
+        CHECK_OK(rb_rolling_curve_observe(&rc, &range, note_mesh, begins, &c, &message));
         assert_int_equal(begins[1] != begins[0], moved > 0.01);
         stay += moved > 0.006 && moved <= 0.01;
         follow += moved > 0.01 && moved < 0.015;

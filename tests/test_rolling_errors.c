@@ -18,7 +18,7 @@ TEST(an_accuracy_is_reached_by_more_elements)
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         int elements;
-        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &heard));
+        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &message));
         CHECK_MAX(e.scalar.force_ratio, accuracy[k], "Q/(mu P)");
         CHECK_MAX(e.scalar.half_width / s.half_width, accuracy[k], "half-width");
         CHECK_MAX(e.scalar.max_pressure / s.max_pressure, accuracy[k], "p0");
@@ -39,7 +39,7 @@ TEST(little_friction_asks_for_no_more_elements)
     int elements;
     rc.b.young = rc.a.young / 40.0;
     set(&rc, "creep-ratio nan force 0 mu 1e-4");
-    CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &heard));
+    CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &message));
     const double unit = rc.mu * s.hertz_half_width / rc.a.radius;
     const double exact = rb_closed_bentall_johnson_slip(fabs(rb_rolling_derive(&rc).dundurs),
                                                         s.hertz_half_width, rc.a.radius);
@@ -57,7 +57,7 @@ TEST(what_is_no_accuracy_is_refused)
         rb_rolling_solution s;
         rb_rolling_errors e;
         int elements;
-        CHECK_SAYS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &heard),
+        CHECK_SAYS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &message),
                    RB_EINVAL, "accuracy: expected a number in (0, 1)");
     }
 }
@@ -71,11 +71,11 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
         rb_rolling_errors errors;
         int elements;
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &heard),
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &message),
                      RB_INACCURATE);
         assert_int_equal(elements, 12);
-        assert_non_null(strstr(heard.text, "accuracy 1e-12 not reached with 12 elements"));
-        assert_int_equal(strstr(heard.text, "a fitted mesh needs fewer") != NULL, !k);
+        assert_non_null(strstr(message.text, "accuracy 1e-12 not reached with 12 elements"));
+        assert_int_equal(strstr(message.text, "a fitted mesh needs fewer") != NULL, !k);
     }
 }
 
@@ -90,12 +90,12 @@ TEST(a_later_round_that_fails_leaves_the_one_before)
         int elements;
         alloc_fail_after(count);
         const rb_status status =
-            rb_rolling_solve_to_accuracy(&rc, 0.05, &s, &errors, &elements, &heard);
+            rb_rolling_solve_to_accuracy(&rc, 0.05, &s, &errors, &elements, &message);
         const int failed = alloc_failed();
         alloc_succeed();
         if (failed && elements > 0) {
             CHECK_STATUS(status, RB_ENOMEM);
-            assert_non_null(strstr(heard.text, ": out of memory beyond "));
+            assert_non_null(strstr(message.text, ": out of memory beyond "));
             CHECK_REL(s.normal_load, 500.0, 1e-9, "the load");
             assert_true(elements >= 12 && isfinite(errors.scalar.force_ratio));
         }
@@ -115,7 +115,7 @@ TEST(a_given_force_has_an_accurate_creepage)
         rb_rolling_errors e;
         int elements;
         set(&rc, "creep-ratio nan force-ratio -0.9 mesh %s", k < 3 ? "uniform" : "fitted");
-        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &heard));
+        CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &message));
         CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
                   accuracy[k % 3], "case %d", k);
     }

@@ -17,7 +17,7 @@ static const rb_rolling_heat warm = {.conductivity = 40.0, .heat_capacity = 3.5}
 
 /* ---- What is done ------------------------------------------------------------------ */
 
-static rb_status solve(void *context)
+static rb_status solve_in_context(void *context)
 {
     OWNED(rb_rolling_solution) s;
     return rb_rolling_solve(context, &s, NULL);
@@ -91,22 +91,22 @@ static void refuse(const char *what, rb_status (*work)(void *), rb_rolling_case 
 TEST(laws_and_heat)
 {
     rb_rolling_case rc = with(plane(6), "friction-law exponential mu-fall 0.2 slip-scale 0.2");
-    refuse("a steep law", solve, &rc);
+    refuse("a steep law", solve_in_context, &rc);
     rc.friction.slip_scale[0] = 200.0;
     refuse("all solutions", find_all, &rc);
     set(&rc, "creep-ratio nan force-ratio 0.2");
-    refuse("a force", solve, &rc);
+    refuse("a force", solve_in_context, &rc);
     rc = plane(6);
     rc.heat_a = rc.heat_b = warm;
     rc.heat_b.conductivity *= 2.0;
     rc.friction.heat = -0.1;
     rc.friction.heat_from = 1.0;
     rc.friction.heat_range = 100.0;
-    refuse("warm friction", solve, &rc);
+    refuse("warm friction", solve_in_context, &rc);
     set(&rc, "formulation transient distance 0.5 steps 2");
     rc.friction.heat = 0.0;
     rc.heat_b = rc.heat_a;
-    refuse("warm steps", solve, &rc);
+    refuse("warm steps", solve_in_context, &rc);
 }
 
 TEST(stress_wear_and_curves)
@@ -125,7 +125,7 @@ TEST(steps_that_yield)
     rb_rolling_case rc = with(
         plane(6),
         "formulation transient distance 0.5 steps 2 interlayer-tangential 1e-5 yield-stress 10");
-    refuse("yielding", solve, &rc);
+    refuse("yielding", solve_in_context, &rc);
 }
 
 /* Two lobes, on a wheel: places that no element sees. */
@@ -146,7 +146,7 @@ TEST(patches_of_wheels)
         rc.gap = RB_GAP_TABLE;
         rc.profile = profile;
         rc.elastic_b = k;
-        refuse("patches", solve, &rc);
+        refuse("patches", solve_in_context, &rc);
     }
     rb_rolling_profile_free(profile);
 }

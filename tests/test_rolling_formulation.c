@@ -176,9 +176,9 @@ TEST(softening_has_a_limit)
             continue;
         }
         d = (posed){.rc = rc};
-        CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &heard));
-        CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &heard));
-        CHECK_SAYS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &heard),
+        CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 0.8, &d.mesh, &message));
+        CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &d.mesh, &d.bodies, &message));
+        CHECK_SAYS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &message),
                    RB_EINVAL, "has no unique solution");
         release(&d);
     }

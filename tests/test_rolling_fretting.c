@@ -18,8 +18,8 @@ static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
     OWNED(rb_rolling_history) h;
     rb_rolling_case frets = *rc;
     frets.fretting = 1;
-    CHECK_OK(rb_rolling_history_run(&frets, program, NULL, &model, &h, &heard));
-    CHECK_OK(rb_rolling_model_solution(&model, s, &heard));
+    CHECK_OK(rb_rolling_history_run(&frets, program, NULL, &model, &h, &message));
+    CHECK_OK(rb_rolling_model_solution(&model, s, &message));
     if (h.cycle_rows > 0)
         CHECK_REL(s->fretting.work, h.cycle_work, 1e-12, "work of the cycle");
 }
@@ -224,16 +224,16 @@ TEST(what_has_no_cycle_is_refused)
         set(&rc, "%s", bad[k].words);
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_model) model;
-        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &heard),
+        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &message),
                    RB_EINVAL, bad[k].says);
     }
     const rb_rolling_case rc = rolling_case(STEEL "similar contact-elements 30 fretting");
     const rb_rolling_program closes = {.n = 4, .force_ratio = reverses};
     OWNED(rb_rolling_history) h;
     OWNED(rb_rolling_model) model;
-    CHECK_SAYS(rb_rolling_history_with_errors(&rc, &closes, NULL, &model, &h, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_history_with_errors(&rc, &closes, NULL, &model, &h, &message), RB_EINVAL,
                "has no error bars");
-    assert_string_equal(heard.about, "error,fretting");
+    assert_string_equal(message.about, "error,fretting");
 }
 
 /* Without the cycle a solution of such a case has nothing of it. */
@@ -241,11 +241,11 @@ TEST(without_a_history_there_is_nothing)
 {
     rb_rolling_case rc = rolling_case(STEEL "similar contact-elements 30 fretting");
     OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
     assert_true(isnan(s.fretting.work) && isnan(s.fretting_work[3]) && isnan(s.swt_b[3]));
     rc.fretting = 0;
     OWNED(rb_rolling_solution) t;
-    CHECK_OK(rb_rolling_solve(&rc, &t, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &t, &message));
     assert_null(t.fretting_work);
     assert_null(t.swt_b);
 }

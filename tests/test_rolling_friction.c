@@ -195,11 +195,11 @@ TEST(bad_tables_are_refused)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_rolling_case rc = steady();
         rc.friction.table = bad[k].table;
-        CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, bad[k].says);
+        CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, bad[k].says);
     }
     rb_rolling_case rc = steady();
     rc.interlayer_tangential = -1.0;
-    CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL,
                "interlayer-tangential: expected a number >= 0");
 }
 

@@ -228,8 +228,8 @@ TEST(a_zone_that_fills_says_how_wide_it_should_be)
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s;
     rc.zone = 0.8 * rc.half_width;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE);
-    const char *to = NOT_NULL(strstr(heard.text, " to "));
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_ZONE);
+    const char *to = NOT_NULL(strstr(message.text, " to "));
     rc.zone = atof(to + 4);
     rb_rolling_solution_free(&s);
     s = solved(&rc);
@@ -247,7 +247,7 @@ TEST(a_gap_that_never_closes_is_no_contact)
     set(&rc, "half-width nan approach 0.5");
     rc.gap = RB_GAP_TABLE;
     rc.profile = profile;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_NO_CONTACT);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_NO_CONTACT);
     rb_rolling_profile_free(profile);
 }
 

@@ -71,7 +71,7 @@ static double below_band(double peclet, double x, double y)
 
     rc.heat_a = (rb_rolling_heat){1.0, 1.0, 0.0};
     rc.speed = 2.0 * peclet;
-    CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &at, &heard), RB_OK);
+    CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &at, &message), RB_OK);
     return at.temperature;
 }
 
@@ -129,30 +129,30 @@ TEST(each_body_has_its_heat)
     other.heat_a = rc.heat_b;
     other.heat_b = rc.heat_a;
     rb_rolling_solution s = {0}, t = {0};
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_OK);
-    CHECK_STATUS(rb_rolling_solve(&other, &t, &heard), RB_OK);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_OK);
+    CHECK_STATUS(rb_rolling_solve(&other, &t, &message), RB_OK);
     CHECK_REL(s.heat_into_a + s.heat_into_b, rc.speed * s.dissipation, 1e-12, "all of it");
     CHECK_REL(t.heat_share_a, s.heat_into_b / (s.heat_into_a + s.heat_into_b), 1e-10, "shares");
     for (int k = 0; k < 9; k++) {
         rb_rolling_stress a = {.x = -2.0 + 0.4 * k, .y = 0.05 * k * k}, b = a;
         b.y = -a.y;
-        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &heard), RB_OK);
-        CHECK_STATUS(rb_rolling_temperature_inside(&other, &t, 1, 1, &b, &heard), RB_OK);
+        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &message), RB_OK);
+        CHECK_STATUS(rb_rolling_temperature_inside(&other, &t, 1, 1, &b, &message), RB_OK);
         CHECK_REL(b.temperature, a.temperature, 1e-9, "point %d", k);
     }
     for (int i = 0; i < s.n; i += 7) { /* the surface is that of (T1) */
         rb_rolling_stress a = {.x = s.x[i]};
-        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &heard), RB_OK);
+        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &message), RB_OK);
         CHECK_REL(a.temperature, s.temperature[i], 1e-9, "element %d", i);
     }
     rb_rolling_solution_free(&s);
     rb_rolling_solution_free(&t);
     rc.heat_b.conductivity = 0.0; /* insulated: A takes all */
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_OK);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_OK);
     CHECK_ABS(s.heat_share_a, 1.0, 0.0, "insulated B");
     rc.heat_a.temperature = 20.0; /* conduction adds: no share of friction alone */
     rc.heat_b = (rb_rolling_heat){0.31, 2.0, 0.0};
-    CHECK_STATUS(rb_rolling_solve(&rc, &t, &heard), RB_OK);
+    CHECK_STATUS(rb_rolling_solve(&rc, &t, &message), RB_OK);
     assert_true(isnan(t.heat_share_a) && t.heat_into_a < s.heat_into_a);
     rb_rolling_solution_free(&s);
     rb_rolling_solution_free(&t);
@@ -368,12 +368,12 @@ TEST(resting_surfaces_are_refused_where_nothing_takes_the_heat)
 {
     rb_rolling_solution s;
     rb_rolling_case rc = with(sliding(1e4, 40), "creep 2 conductivity-b 0");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "it gets warmer for ever");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "it gets warmer for ever");
     set(&rc, "formulation transient distance 1 mesh uniform slip-operator upstream "
              "conductivity-b 50 creep 1.9999");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "of A, V = ");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "of A, V = ");
     set(&rc, "creep -2.5");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "of B, V = -");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "of B, V = -");
 }
 
 /* ---- Steps ------------------------------------------------------------------------- */
@@ -390,7 +390,7 @@ TEST(steps_tend_to_the_steady_state)
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_model) model;
         rc.steps = steps[k % 2];
-        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
+        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &message));
         CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps", h.n);
         /* it rises along the way; the peak between elements is known to 1e-5 */
         for (int i = 1; i < h.n; i++)
@@ -404,7 +404,7 @@ TEST(curve_has_the_temperature_of_its_cases)
     rb_rolling_case rc = sliding(500.0, 60);
     OWNED(rb_rolling_curve) curve;
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2, RB_UNITS_MM}, &curve,
-                                    &heard));
+                                    &message));
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
 }
@@ -453,7 +453,7 @@ TEST(meaningless_cases_are_refused)
                                         "homogeneous", "conductivity-b", "temperature-b",
                                         "4000"};
     for (int k = 0; k < 7; k++) {
-        CHECK_SAYS(rb_rolling_case_check(&bad[k], &heard), RB_EINVAL, words[k]);
+        CHECK_SAYS(rb_rolling_case_check(&bad[k], &message), RB_EINVAL, words[k]);
     }
 }
 
@@ -463,7 +463,7 @@ TEST(slow_steps_are_refused)
     rb_rolling_case rc = sliding(5.0, 60);
     OWNED(rb_rolling_solution) s;
     set(&rc, "mesh uniform slip-operator upstream formulation transient distance 1");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "diffusivity");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "diffusivity");
 }
 
 /* ---- Parts ------------------------------------------------------------------------- */

@@ -8,7 +8,7 @@
 static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *history)
 {
-    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, history, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, history, &message));
 }
 
 static void release(rb_rolling_model *model, rb_rolling_history *history)
@@ -208,7 +208,7 @@ TEST(bad_programs_name_the_row)
         rb_rolling_model model;
         rb_rolling_history h;
         rc.formulation = bad[k].formulation;
-        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &heard),
+        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &message),
                    RB_EINVAL, bad[k].word);
         release(&model, &h);
     }
@@ -228,11 +228,11 @@ TEST(an_interrupted_run_keeps_its_steps)
     rb_rolling_case rc = with(steel_wheel(20), "formulation transient creep 1e-4 distance 2");
     rb_rolling_model model;
     rb_rolling_history h;
-    int seen = 0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){stop_at_five, &seen},
-                                        &model, &h, &heard),
+    int counted = 0;
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){stop_at_five, &counted},
+                                        &model, &h, &message),
                  RB_INTERRUPTED);
-    assert_int_equal(seen, 5);
+    assert_int_equal(counted, 5);
     assert_int_equal(h.n, 5);
     assert_true(h.normal_load[4] > 0.0);
     release(&model, &h);
@@ -350,7 +350,7 @@ TEST(ways_that_lead_nowhere_are_refused)
         rb_rolling_history h;
         set(&rc, "formulation transient creep 1e-4");
         rc.distance = distance[k];
-        CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &message), RB_EINVAL,
                    k == 0  ? "distance: expected > 0, got 0"
                    : k < 3 ? "distance: expected a number > 0"
                            : "expected at most 1e+07");
@@ -373,7 +373,7 @@ static void run_recorded(const rb_rolling_case *rc, rb_rolling_states *states,
                          rb_rolling_model *model, rb_rolling_history *h)
 {
     const rb_rolling_observer observer = {keep_state, states};
-    CHECK_OK(rb_rolling_history_run(rc, NULL, &observer, model, h, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, NULL, &observer, model, h, &message));
 }
 
 TEST(states_are_followed_to_the_same_history)
@@ -384,11 +384,11 @@ TEST(states_are_followed_to_the_same_history)
     rb_rolling_history h, followed;
     set(&rc, "formulation transient creep 1e-4 distance 0.5 increments 2");
     run_recorded(&rc, &states, &model, &h);
-    CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard), RB_EINVAL,
-               "half-width 0: expected > 0");
+    CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message),
+               RB_EINVAL, "half-width 0: expected > 0");
     release(&again, &followed);
     states.half_width = h.half_width;
-    CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+    CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message));
     assert_int_equal(followed.n, h.n);
     for (int k = 0; k < h.n; k++) {
         CHECK_ABS(followed.distance[k], h.distance[k], 1e-13, "distance of step %d", k);
@@ -402,13 +402,13 @@ TEST(states_are_followed_to_the_same_history)
     }
     release(&again, &followed);
     states.p[(states.steps - 1) * states.n + states.n / 2] *= 1.01;
-    CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+    CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message));
     CHECK_MAX(1e-4, followed.residual[h.n - 1], "a changed state");
     CHECK_MAX(followed.residual[h.n - 2], 1e-9, "the state before");
     release(&again, &followed);
     states.steps--;
-    CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard), RB_EINVAL,
-               "steps, the program has");
+    CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message),
+               RB_EINVAL, "steps, the program has");
     release(&again, &followed);
     release(&model, &h);
 }
@@ -431,7 +431,7 @@ TEST(states_bring_what_particles_carry)
         }
         run_recorded(&rc, &states, &model, &h);
         states.half_width = h.half_width;
-        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message));
         for (int step = 0; step < h.n; step++) {
             CHECK_MAX(followed.residual[step], 1e-9, "residual of step %d", step);
             CHECK_REL(followed.dissipation[step], h.dissipation[step], 1e-9, "power of %d", step);
@@ -441,7 +441,7 @@ TEST(states_bring_what_particles_carry)
             rc.hardening *= 1.01;
         else
             rc.friction.memory *= 1.01;
-        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message));
         CHECK_MAX(1e-6, followed.residual[h.n - 1], "another state variable");
         release(&again, &followed);
         release(&model, &h);
@@ -463,7 +463,7 @@ TEST(states_of_a_ratio_are_followed)
     states.half_width = h.half_width;
     for (int k = 0; k < 2; k++) {
         const double creepage = states.xi[states.steps - 1];
-        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &message));
         CHECK_ABS(followed.creepage[h.n - 1], creepage, 1e-15, "creepage");
         CHECK_REL(again.problem.xi, model.problem.xi, 1e-12, "the wanted one");
         if (k == 0)
@@ -485,7 +485,8 @@ TEST(a_row_s_friction_bounds_its_force)
     const double mu[] = {0.3, 0.1}, force[] = {0.2 * rc.load, 0.2 * rc.load};
     const rb_rolling_program program = {.n = 2, .mu = mu, .force = force};
     rc.formulation = RB_STATIC;
-    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL, "row 2");
+    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL,
+               "row 2");
     release(&model, &h);
 }
 
@@ -500,8 +501,8 @@ TEST(friction_between_rows_bounds_the_force)
     const rb_rolling_program program = {
         .n = 2, .time = time, .mu = mu, .load = load, .force = force};
     set(&rc, "formulation static time-step 0.25 relaxation-time 1 relaxation-ratio 1");
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL);
-    print_message("%s\n", heard.text);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL);
+    print_message("%s\n", message.text);
     assert_true(h.n > 0);
     release(&model, &h);
 }

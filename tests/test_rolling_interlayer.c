@@ -117,7 +117,7 @@ TEST(negative_compliance_is_refused)
 {
     rb_rolling_case rc = layered(1.0, 60, 0.5);
     rc.interlayer_normal = -1e-9;
-    CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, "interlayer");
+    CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, "interlayer");
 }
 
 RUN_TESTS(NULL, NULL)

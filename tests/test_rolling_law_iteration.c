@@ -76,8 +76,9 @@ TEST(after_a_history_its_heat_is_unknown)
              "temperature-b 20");
     rc.friction.heat = -0.1;
     rc.friction.heat_range = 200.0;
-    CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard));
-    CHECK_SAYS(rb_sensitivity_create(&model, 0, &s, &heard), RB_EINVAL, "while their history runs");
+    CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &message));
+    CHECK_SAYS(rb_sensitivity_create(&model, 0, &s, &message), RB_EINVAL,
+               "while their history runs");
     assert_null(s);
 }
 
@@ -182,9 +183,9 @@ TEST(the_largest_force_is_that_of_a_scan)
         }
     }
     rc.force = -199.0;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL);
     rb_rolling_solution_free(&s);
-    const char *from = NOT_NULL(strstr(heard.text, "the largest is "));
+    const char *from = NOT_NULL(strstr(message.text, "the largest is "));
     assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_REL(told, -largest, 5e-3, "largest force");
     CHECK_ABS(at, place, 1.5e-4, "its creepage");
@@ -254,19 +255,19 @@ TEST(all_solutions_of_one_are_one)
     int touch = 0;
     for (int i = 0; i < model.state.n; i++)
         touch += model.state.p[i] > 0.0;
-    CHECK_OK(rb_rolling_find_solutions(&model, &all, &heard));
+    CHECK_OK(rb_rolling_find_solutions(&model, &all, &message));
     assert_int_equal(all.n, 1);
     assert_int_equal(all.starts, touch + 1);
     assert_int_equal(all.failed, 0);
     rb_rolling_solutions_free(&all);
     model.problem.force_given = 1;
-    CHECK_SAYS(rb_rolling_find_solutions(&model, &all, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_find_solutions(&model, &all, &message), RB_EINVAL,
                "not under a given force");
     model.problem.force_given = 0;
     for (int k = 0; k < 2; k++) {
         case_of_model(&model)->formulation = k ? RB_STEADY : RB_TRANSIENT;
         case_of_model(&model)->friction.fall[0] = k ? 0.0 : 0.1;
-        CHECK_SAYS(rb_rolling_find_solutions(&model, &all, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_rolling_find_solutions(&model, &all, &message), RB_EINVAL,
                    "all solutions: only for steady rolling with");
     }
 }
@@ -280,7 +281,7 @@ TEST(starts_that_fail_are_counted)
     OWNED(rb_rolling_model) model = solved_model(&rc);
     case_of_model(&model)->contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
-    CHECK_OK(rb_rolling_find_solutions(&model, &all, &heard));
+    CHECK_OK(rb_rolling_find_solutions(&model, &all, &message));
     assert_int_equal(all.n, 1);
     assert_true(all.starts > 1);
     assert_int_equal(all.failed, all.starts);
@@ -315,8 +316,8 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
     OWNED(rb_rolling_solution) s;
     double told = 0.0, at = 0.0;
     set(&rc, "friction-law rational force %g", -100.0 * (1.0 - 1e-12));
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
-    const char *from = NOT_NULL(strstr(heard.text, "the largest is "));
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL);
+    const char *from = NOT_NULL(strstr(message.text, "the largest is "));
     assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_MAX(1e3, at, "creepage");
     CHECK_REL(told, -500.0 * (0.2 - 0.1 / (1.0 + at * rc.speed / 40.0)), 1e-6,

@@ -178,7 +178,8 @@ TEST(curves_have_two_branches)
         }
         rc.creep = NAN;
         CHECK_OK(rb_rolling_curve_solve(
-            &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS, RB_UNITS_MM}, &c, &heard));
+            &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS, RB_UNITS_MM}, &c,
+            &message));
         assert_int_equal(c.n, 2 * POINTS);
         assert_int_equal(c.rising, POINTS);
         for (int i = 0; i < c.n; i++) {
@@ -208,7 +209,7 @@ TEST(one_element_more_may_stick)
         set(&rc, "contact-elements %d creep %g tol 1e-12", 93 * (k + 1), creep[k]);
         OWNED(rb_rolling_model) model = solved_model(&rc);
         rb_contact_violation middle;
-        CHECK_OK(rb_rolling_find_solutions(&model, &found, &heard));
+        CHECK_OK(rb_rolling_find_solutions(&model, &found, &message));
         assert_int_equal(found.n, 2);
         const rb_rolling_solution *s = found.solution;
         CHECK_ABS(fabs(s[1].force_ratio - s[0].force_ratio), apart[k], 1e-8, "apart");
@@ -259,7 +260,7 @@ TEST(short_steps_are_solved)
         "poisson 0.3 poisson-b 0.3 formulation transient creep nan force-ratio -0.5 zone auto "
         "contact-elements 1500 distance %g steps 19",
         19.0 * 0.2 / 116.0);
-    CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &message));
     assert_int_equal(h.n, 20);
     check_state(&model, NULL, "the last step");
     for (int k = 0; k < h.n; k++) {
@@ -279,7 +280,7 @@ TEST(branches_outlive_their_mesh)
     double widest = 0.0;
     rc.elastic_b = 0;
     CHECK_OK(rb_rolling_curve_solve(
-        &rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13, RB_UNITS_MM}, &c, &heard));
+        &rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13, RB_UNITS_MM}, &c, &message));
     for (int i = 0; i < c.n; i++) {
         CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
         widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));
@@ -302,7 +303,7 @@ TEST(all_solutions_are_found)
         rb_rolling_case rc = rail(all[k].scale);
         OWNED(rb_rolling_model) model = solved_model(&rc);
         OWNED(rb_rolling_solutions) found;
-        CHECK_OK(rb_rolling_find_solutions(&model, &found, &heard));
+        CHECK_OK(rb_rolling_find_solutions(&model, &found, &message));
         assert_int_equal(found.n, all[k].n);
         assert_int_equal(found.failed, 0);
         for (int i = 0; i < found.n; i++) {
@@ -321,7 +322,8 @@ TEST(all_solutions_are_found)
     rb_rolling_case rc = with(rail(10.0), "creep nan force-ratio -0.2");
     OWNED(rb_rolling_solutions) none;
     OWNED(rb_rolling_model) model = solved_model(&rc);
-    CHECK_SAYS(rb_rolling_find_solutions(&model, &none, &heard), RB_EINVAL, "at a given creepage");
+    CHECK_SAYS(rb_rolling_find_solutions(&model, &none, &message), RB_EINVAL,
+               "at a given creepage");
 }
 
 /* ---- A given force ----------------------------------------------------------------- */
@@ -406,8 +408,8 @@ TEST(the_largest_force_is_told)
     rb_rolling_case rc = with(rail(100.0), "creep nan force -800");
     OWNED(rb_rolling_model) model;
     double force, at;
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
-    const char *largest = NOT_NULL(strstr(heard.text, "the largest is "));
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &message), RB_EINVAL);
+    const char *largest = NOT_NULL(strstr(message.text, "the largest is "));
     assert_int_equal(sscanf(largest, "the largest is %lf N/mm, at creepage %lf", &force, &at), 2);
     CHECK_REL(force, -754.453, 1e-5, "largest force");
     rc.force = NAN;
@@ -448,21 +450,21 @@ TEST(a_force_is_met_from_beyond_free_rolling)
 typedef struct {
     double *before;
     int n;
-} steps_seen;
+} steps_record;
 
 static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, int step, int steps,
                     void *context)
 {
-    steps_seen *seen = context;
+    steps_record *record = context;
     const int n = model->mesh.n;
     (void)steps;
     if (model->rc->formulation == RB_TRANSIENT)
-        check_state(model, seen->before, "step");
-    assert_true(step < 200 && n <= seen->n);
+        check_state(model, record->before, "step");
+    assert_true(step < 200 && n <= record->n);
     const double *mu = model->problem.bound, way = h->step / model->bodies.f.h[0];
     assert_true(way > 0.5 && way <= 1.0 + 1e-9); /* of an element, towards the next */
     for (int i = 0; i < n; i++)
-        seen->before[i] = mu[i] + way * ((i + 1 < n ? mu[i + 1] : 0.3) - mu[i]);
+        record->before[i] = mu[i] + way * ((i + 1 < n ? mu[i + 1] : 0.3) - mu[i]);
     return 0;
 }
 
@@ -474,15 +476,15 @@ TEST(steps_remember_their_friction)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) history;
         double room[200];
-        steps_seen seen = {room, 200};
+        steps_record record = {room, 200};
         rc.contact_elements = 47;
         rc.friction.memory = memory ? 0.003 : 0.0;
         rc.friction.memory_slip = 1.0;
         const double steady = ratio_of(&rc);
         set(&rc, "formulation transient distance 6");
         rc.a.datum = rc.b.datum = 10.0; /* stiff, so that it is steady soon */
-        CHECK_OK(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){see_step, &seen}, &model,
-                                        &history, &heard));
+        CHECK_OK(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){see_step, &record},
+                                        &model, &history, &message));
         if (memory) /* without it the steps jump between solutions */
             CHECK_ABS(history.force_ratio[history.n - 1], steady, 2e-3, "steady at last");
     }
@@ -506,7 +508,7 @@ static rb_rolling_history run_of(const rb_rolling_case *rc, const rb_rolling_pro
 {
     const rb_rolling_observer observer = {see, context};
     rb_rolling_history history;
-    CHECK_OK(rb_rolling_history_run(rc, program, &observer, model, &history, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, program, &observer, model, &history, &message));
     return history;
 }
 
@@ -565,8 +567,8 @@ typedef struct {
 static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, int step, int steps,
                    void *context)
 {
-    way_seen *seen = context;
-    const rb_rolling_program *program = seen->program;
+    way_seen *record = context;
+    const rb_rolling_program *program = record->program;
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *s = &model->state;
     const int n = p->n, m = n + 1, rolls = model->rc->formulation == RB_TRANSIENT;
@@ -584,7 +586,7 @@ static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, i
     }
     CHECK_ABS(h->mu[step], mu, 1e-12, "mu of step %d", step);
     for (int i = 0; i < n; i++) {
-        const double before = step > 0 ? seen->w[m + i + rolls] : 0.0,
+        const double before = step > 0 ? record->w[m + i + rolls] : 0.0,
                      slip = s->xi * (rolls ? h->step : 1.0) + w[m + i] - before,
                      small = 1e-9 * p->stress;
         if (s->p[i] == 0.0)
@@ -594,10 +596,10 @@ static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, i
             CHECK_ABS(slip, 0.0, 1e-9 * p->slip_length, "step %d, element %d", step, i);
         else
             assert_true(s->q[i] * slip <= 1e-9 * p->slip_length * p->stress);
-        seen->slips += fabs(slip) > 1e-6 * p->slip_length;
+        record->slips += fabs(slip) > 1e-6 * p->slip_length;
     }
-    memcpy(seen->w, w, 2 * (size_t)m * sizeof *w);
-    seen->steps++;
+    memcpy(record->w, w, 2 * (size_t)m * sizeof *w);
+    record->steps++;
     return 0;
 }
 
@@ -613,7 +615,7 @@ TEST(steps_have_the_friction_of_their_way)
         rb_rolling_case rc = on_its_way(k % 2, rolls ? RB_TRANSIENT : RB_STATIC);
         rb_rolling_program program = {.n = 5, .load = load, .mu = mu};
         rb_rolling_model model;
-        way_seen seen = {.program = &program};
+        way_seen record = {.program = &program};
         *(rolls ? &program.creep : &program.shift) = rolls ? creep : shift;
         program.distance = rolls ? distance : NULL;
         rc.load = 3000.0;
@@ -627,9 +629,9 @@ TEST(steps_have_the_friction_of_their_way)
         for (int r = 0; r < 5 && rolls; r++)
             whole[r] = round(distance[r] * way / element) * element / way;
         program.distance = rolls ? whole : NULL;
-        h = run_of(&rc, &program, see_way, &seen, &model);
-        assert_int_equal(seen.steps, h.n);
-        assert_true(seen.slips > 10);
+        h = run_of(&rc, &program, see_way, &record, &model);
+        assert_int_equal(record.steps, h.n);
+        assert_true(record.slips > 10);
         if (!rolls) /* less friction lets slip what stuck, more friction holds it */
             assert_true(h.slipping[2] > h.slipping[1] && h.slipping[3] == 0 &&
                         fabs(h.tangential_load[3] - h.tangential_load[2]) <
@@ -672,23 +674,23 @@ TEST(bad_ways_are_refused)
     rb_rolling_program program = {.n = 2, .distance = distance, .mu = mu};
     rb_rolling_model model;
     rb_rolling_history h;
-    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "history: row 2: mu: expected a number >= 0, got -0.1");
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL);
+    assert_string_equal(message.text, "history: row 2: mu: expected a number >= 0, got -0.1");
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_table, .table = {1, &place, mu}};
-    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL,
                "a column mu cannot be combined with a table");
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
     static const double less[] = {0.1, 0.3}, load[] = {100.0, 12500.0}, force[] = {10.0, 3700.0};
     const rb_rolling_program between = {
         .n = 2, .distance = distance, .mu = less, .load = load, .force = force};
-    CHECK_SAYS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &message), RB_EINVAL,
                "step 2: force: Q = ");
-    assert_non_null(strstr(heard.text, "friction carries at most mu P = "));
+    assert_non_null(strstr(message.text, "friction carries at most mu P = "));
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&h);
     rc.force = 800.0; /* mu P becomes 0 */
     program.mu = distance;
-    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL,
                "history: row 1: force");
 }
 
@@ -712,12 +714,12 @@ TEST(a_step_has_two_starts)
         case_of_model(&model)->creep = 0.001;
         model.carried.mu = before;
         CHECK_OK(rb_rolling_problem_create(model.rc, &model.mesh, &model.bodies, &past,
-                                           &model.problem, &heard));
+                                           &model.problem, &message));
         for (int i = 0; i < n && start; i++)
             model.problem.bound[i] = kinetic;
-        const rb_status s = rb_rolling_model_resolve(&model, 1, &heard);
+        const rb_status s = rb_rolling_model_resolve(&model, 1, &message);
         if (s != RB_OK)
-            print_error("%s\n", heard.text);
+            print_error("%s\n", message.text);
         CHECK_OK(s);
         check_state(&model, before, start ? "from above" : "from below");
         ratio[start] = -rb_rolling_force_ratio(&model);
@@ -779,7 +781,7 @@ TEST(steps_become_warm)
     const double steady = s.force_ratio;
     rb_rolling_solution_free(&s);
     set(&rc, "formulation transient distance 4");
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
     CHECK_ABS(s.force_ratio, steady, 2e-3, "transient");
     for (int i = 0; i < s.n; i++) {
         const double part = (s.temperature[i] - 20.0) / 400.0;
@@ -834,8 +836,8 @@ static double largest_of(rb_rolling_case rc, double *shift)
     double force;
 
     rc.force = 1.49 * kinetic(&rc);
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
-    const char *largest = NOT_NULL(strstr(heard.text, "the largest is "));
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &message), RB_EINVAL);
+    const char *largest = NOT_NULL(strstr(message.text, "the largest is "));
     assert_int_equal(
         sscanf(largest, "the largest is %lf N/mm, at a shift of %lf mm", &force, shift), 2);
     rb_rolling_model_free(&model);
@@ -904,7 +906,7 @@ TEST(jumps_are_told)
         OWNED(rb_rolling_history) h;
         for (int row = 0; row <= of[k].rows; row++)
             shift[row] = 6e-3 * row / of[k].rows;
-        CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard));
+        CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message));
         most = -largest_of(rc, &at) * kinetic(&rc);
         if (of[k].distance == 0.5) {
             assert_int_equal(h.rows.jumped, 0);
@@ -930,8 +932,8 @@ TEST(a_first_row_jumps_as_a_second_one_does)
     OWNED(rb_rolling_model) other;
     OWNED(rb_rolling_history) h;
     OWNED(rb_rolling_history) want;
-    CHECK_OK(rb_rolling_history_run(&rc, &one, NULL, &model, &h, &heard));
-    CHECK_OK(rb_rolling_history_run(&rc, &two, NULL, &other, &want, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &one, NULL, &model, &h, &message));
+    CHECK_OK(rb_rolling_history_run(&rc, &two, NULL, &other, &want, &message));
     assert_int_equal(want.rows.jumped, 2);
     assert_int_equal(h.rows.jumped, 1);
     assert_int_equal(h.substeps[0], 2 * want.substeps[1]); /* half of them press */
@@ -953,10 +955,10 @@ TEST(a_first_row_does_not_depend_on_the_steps_tried_before)
     OWNED(rb_rolling_model) other;
     OWNED(rb_rolling_history) h;
     OWNED(rb_rolling_history) want;
-    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message));
     assert_true(h.substeps[0] >= 4);
     rc.increments = h.substeps[0] / 2; /* to press, and as many to load */
-    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &other, &want, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &other, &want, &message));
     assert_int_equal(want.substeps[0], h.substeps[0]);
     for (int i = 0; i < model.mesh.n; i++)
         CHECK_ABS(model.state.q[i], other.state.q[i], 1e-9 * h.max_pressure[0], "element %d", i);
@@ -977,7 +979,7 @@ TEST(friction_at_rest_falls_in_both_senses)
             set(&of, "half-width nan load 900");
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) h;
-        CHECK_OK(rb_rolling_history_run(&of, &program, NULL, &model, &h, &heard));
+        CHECK_OK(rb_rolling_history_run(&of, &program, NULL, &model, &h, &message));
         const double first = fabs(h.tangential_load[1]), again = fabs(h.tangential_load[h.n - 1]);
         assert_true(again < (1.0 - 1e-3) * first);
         assert_int_equal(h.rows.jumped, 0);
@@ -993,18 +995,18 @@ typedef struct {
 static int see_bounds(const rb_rolling_model *model, const rb_rolling_history *h, int step,
                       int steps, void *context)
 {
-    bounds_seen *seen = context;
+    bounds_seen *record = context;
     const size_t n = (size_t)model->mesh.n;
 
     (void)h;
     (void)steps;
-    if (!seen->bound) {
-        seen->bound = NOT_NULL(rb_alloc(n, 4));
-        seen->zone = NOT_NULL(calloc(4 * n, sizeof *seen->zone));
+    if (!record->bound) {
+        record->bound = NOT_NULL(rb_alloc(n, 4));
+        record->zone = NOT_NULL(calloc(4 * n, sizeof *record->zone));
     }
-    memcpy(seen->bound + n * (size_t)step, model->problem.bound, n * sizeof(double));
-    memcpy(seen->zone + n * (size_t)step, model->state.zone, n * sizeof(int));
-    seen->rows = step + 1;
+    memcpy(record->bound + n * (size_t)step, model->problem.bound, n * sizeof(double));
+    memcpy(record->zone + n * (size_t)step, model->state.zone, n * sizeof(int));
+    record->rows = step + 1;
     return 0;
 }
 
@@ -1016,25 +1018,25 @@ TEST(what_sticks_heals)
                               "half-width nan load 900 relaxation-time 1e-4 relaxation-ratio 1e-4 "
                               "increments 1");
     rc.friction.memory_slip = 2e-3; /* d/s0 = 0.25 s */
-    bounds_seen seen = {NULL, NULL, 0};
-    const rb_rolling_observer observer = {see_bounds, &seen};
+    bounds_seen record = {NULL, NULL, 0};
+    const rb_rolling_observer observer = {see_bounds, &record};
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
-    CHECK_OK(rb_rolling_history_run(&rc, &program, &observer, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &program, &observer, &model, &h, &message));
     const int n = model.mesh.n;
     int healed = 0;
-    assert_int_equal(seen.rows, 4);
+    assert_int_equal(record.rows, 4);
     for (int i = 0; i < n; i++) {
-        const double before = seen.bound[2 * n + i];
-        if (seen.zone[2 * n + i] != RB_ZONE_STICK || seen.zone[3 * n + i] != RB_ZONE_STICK)
+        const double before = record.bound[2 * n + i];
+        if (record.zone[2 * n + i] != RB_ZONE_STICK || record.zone[3 * n + i] != RB_ZONE_STICK)
             continue;
-        CHECK_ABS(seen.bound[3 * n + i], 0.3 + (before - 0.3) * exp(-0.298 / 0.25), 1e-9,
+        CHECK_ABS(record.bound[3 * n + i], 0.3 + (before - 0.3) * exp(-0.298 / 0.25), 1e-9,
                   "element %d", i);
         healed += before < 0.299;
     }
     assert_true(healed > 5);
-    free(seen.bound);
-    free(seen.zone);
+    free(record.bound);
+    free(record.zone);
 }
 
 /* Also where the bodies are apart: a column mu moves the coefficients, and time restores them. */
@@ -1052,15 +1054,15 @@ TEST(what_is_apart_remembers_its_coefficients)
         if (heals)
             set(&rc, "relaxation-time 1e-4 relaxation-ratio 1e-4");
         rc.friction.memory_slip = 2e-3; /* d/s0 = 0.25 s */
-        bounds_seen seen = {NULL, NULL, 0};
-        const rb_rolling_observer observer = {see_bounds, &seen};
+        bounds_seen record = {NULL, NULL, 0};
+        const rb_rolling_observer observer = {see_bounds, &record};
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) h;
-        CHECK_OK(rb_rolling_history_run(&rc, &program, &observer, &model, &h, &heard));
-        const double *first = seen.bound, *second = first + model.mesh.n,
+        CHECK_OK(rb_rolling_history_run(&rc, &program, &observer, &model, &h, &message));
+        const double *first = record.bound, *second = first + model.mesh.n,
                      *third = second + model.mesh.n;
         int slid = 0;
-        assert_int_equal(seen.rows, 3);
+        assert_int_equal(record.rows, 3);
         for (int i = 0; i < model.mesh.n; i++) {
             if (heals)
                 CHECK_ABS(third[i], 0.3 + (second[i] - 0.3) * exp(-0.299 / 0.25), 1e-12,
@@ -1070,8 +1072,8 @@ TEST(what_is_apart_remembers_its_coefficients)
             slid += first[i] < 0.299;
         }
         assert_true(slid > 5);
-        free(seen.bound);
-        free(seen.zone);
+        free(record.bound);
+        free(record.zone);
     }
 }
 
@@ -1083,7 +1085,7 @@ TEST(a_kinetic_coefficient_may_change_at_rest)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
     const rb_rolling_case rc = pushed(40, 0.5, 36.788);
-    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message));
     int sticks = 0;
     for (int i = 0; i < model.mesh.n; i++) {
         if (model.state.zone[i] == RB_ZONE_STICK) {
@@ -1098,7 +1100,7 @@ TEST(a_kinetic_coefficient_may_change_at_rest)
 
 static void refused(const rb_rolling_case *rc, const char *says)
 {
-    CHECK_SAYS(rb_rolling_case_check(rc, &heard), RB_EINVAL, says);
+    CHECK_SAYS(rb_rolling_case_check(rc, &message), RB_EINVAL, says);
 }
 
 TEST(bad_laws_are_refused)
@@ -1130,9 +1132,9 @@ TEST(bad_laws_are_refused)
             "in static contact, add --memory; without it the result on fine meshes is that of "
             "mu = 0.2");
     rc.friction.fall[0] = 0.0;
-    CHECK_OK(rb_rolling_case_check(&rc, &heard));
+    CHECK_OK(rb_rolling_case_check(&rc, &message));
     rc.friction.fall[0] = -0.1; /* below it: friction that rises with slip keeps it */
-    CHECK_OK(rb_rolling_case_check(&rc, &heard));
+    CHECK_OK(rb_rolling_case_check(&rc, &message));
 }
 
 RUN_TESTS(NULL, NULL)

@@ -143,7 +143,7 @@ TEST(only_the_axle_of_a_is_free)
         CHECK_REL(s.torque_b, M - Q * R, 1e-12, "case %d: B", k);
         CHECK_REL(s.torque_b / R, M * (1.0 / R + 1.0 / rc.a.radius), 1e-9, "case %d: B drives both",
                   k);
-        CHECK_OK(rb_rolling_curve_solve(&rc, &range, &c, &heard));
+        CHECK_OK(rb_rolling_curve_solve(&rc, &range, &c, &message));
         CHECK_ABS(c.torque_a[0], 0.0, 1e-10 * s.normal_load * rc.a.radius, "curve");
         CHECK_REL(c.torque_b[0], s.torque_b, 1e-6, "case %d: curve", k);
     }
@@ -158,7 +158,7 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rb_rolling_case rc = hunter(1.0, 1.0, 40);
     int turns = 0;
     CHECK_OK(rb_rolling_curve_solve(
-        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS, RB_UNITS_MM}, &c, &heard));
+        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS, RB_UNITS_MM}, &c, &message));
     assert_int_equal(c.n, POINTS);
     for (int k = 1; k + 1 < POINTS; k++) {
         CHECK_REL(c.speed[k] / c.speed[k - 1], sqrt(10.0), 1e-12, "point %d", k);
@@ -169,13 +169,15 @@ TEST(resistance_has_a_maximum_over_the_speed)
     CHECK_REL(c.resistance_moment[4], 0.2621595 * c.normal_load[4], 1e-5, "Hunter");
     CHECK_REL(c.hysteresis[4], c.resistance_moment[4] / rc.a.radius, 1e-3, "energy");
     rb_rolling_curve_free(&c);
-    CHECK_STATUS(rb_rolling_curve_solve(
-                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3, RB_UNITS_MM}, &c, &heard),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3, RB_UNITS_MM},
+                               &c, &message),
+        RB_EINVAL);
     rc.a.memory.n = 0;
-    CHECK_STATUS(rb_rolling_curve_solve(
-                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3, RB_UNITS_MM}, &c, &heard),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3, RB_UNITS_MM},
+                               &c, &message),
+        RB_EINVAL);
 }
 
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
@@ -387,22 +389,22 @@ TEST(layers_must_be_resolved)
         CHECK_STATUS(steps == 2
                          ? rb_rolling_curve_solve(
                                &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 1e-3, 2, RB_UNITS_MM},
-                               &curve, &heard)
-                         : rb_rolling_solve(&rc, &s[0], &heard),
+                               &curve, &message)
+                         : rb_rolling_solve(&rc, &s[0], &message),
                      RB_EINVAL);
         if (steps == 2)
             rb_rolling_curve_free(&curve);
-        const char *take = NOT_NULL(strstr(heard.text, "take "));
+        const char *take = NOT_NULL(strstr(message.text, "take "));
         assert_int_equal(sscanf(take, "take %d contact elements", &enough), 1);
         for (int j = 0; j < 2; j++) {
             rc.contact_elements = enough << 2 * j;
-            CHECK_OK(rb_rolling_solve(&rc, &s[j], &heard));
+            CHECK_OK(rb_rolling_solve(&rc, &s[j], &message));
         }
         CHECK_REL(s[0].normal_load, s[1].normal_load, 0.03, "%d elements", enough);
         rb_rolling_solution_free(&s[0]);
         rb_rolling_solution_free(&s[1]);
         set(&rc, "poisson 0.3 contact-elements 24");
-        CHECK_OK(rb_rolling_solve(&rc, &s[0], &heard));
+        CHECK_OK(rb_rolling_solve(&rc, &s[0], &message));
         rb_rolling_solution_free(&s[0]);
     }
 }
@@ -414,7 +416,7 @@ TEST(hopeless_layers_are_refused)
     OWNED(rb_rolling_solution) s;
     set(&rc, "radius 50 young 94500 half-width nan approach 1e-4 gap exact mu 0.3 creep 1e-3 "
              "mesh uniform zone 0.4");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL,
                "may not be longer than the thickness");
 }
 
@@ -484,7 +486,7 @@ TEST(bad_axles_are_refused)
             rc.a.memory.n = 0;
             rc.mesh = RB_MESH_UNIFORM;
         }
-        CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, word[k]);
+        CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, word[k]);
     }
 }
 
@@ -510,7 +512,7 @@ TEST(bad_bodies_are_refused)
         rc.a.layer = bad[k].layer;
         rc.a.support = bad[k].support;
         rc.formulation = bad[k].formulation;
-        CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, bad[k].word);
+        CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, bad[k].word);
     }
 }
 

@@ -36,15 +36,16 @@ TEST(meshes_stay_on_the_lower_half)
 {
     rb_rolling_mesh mesh;
     rb_rolling_case rc = rb_rolling_case_defaults();
-    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, 1.0, 1.0, &mesh, &heard), RB_EINVAL, "is empty");
-    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 50.0, &mesh, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, 1.0, 1.0, &mesh, &message), RB_EINVAL,
+               "is empty");
+    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 50.0, &mesh, &message), RB_EINVAL,
                "wider than the radius, 50 mm");
-    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -50.0, 1.0, &mesh, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -50.0, 1.0, &mesh, &message), RB_EINVAL,
                "wider than the radius, 50 mm");
     rc.contact_elements = 3;
-    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -49.0, 49.0, &mesh, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_mesh_uniform(&rc, NULL, -49.0, 49.0, &mesh, &message), RB_EINVAL,
                "no room for the element before it");
-    CHECK_SAYS(rb_rolling_mesh_fitted(&rc, NULL, 2.0, 1.0, &mesh, &heard), RB_EINVAL, "is empty");
+    CHECK_SAYS(rb_rolling_mesh_fitted(&rc, NULL, 2.0, 1.0, &mesh, &message), RB_EINVAL, "is empty");
 }
 
 /* ---- The gap ----------------------------------------------------------------------- */
@@ -135,12 +136,12 @@ TEST(elements_out_of_order_are_refused)
     const rb_rolling_case rc = half_plane(RB_STATIC, 20);
     rb_rolling_elements elements = {.n = 3, .x = x, .h = h};
     rb_rolling_mesh mesh;
-    CHECK_SAYS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &message), RB_EINVAL,
                "element 3 ends before it begins");
     assert_null(mesh.ends);
     elements.x = far;
     memset(&mesh, 1, sizeof mesh);
-    CHECK_SAYS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &message), RB_EINVAL,
                "wider than the radius");
     assert_null(mesh.ends);
 }

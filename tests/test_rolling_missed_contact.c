@@ -48,7 +48,8 @@ TEST(several_patches_cannot_be_aligned)
     held_table *t = bumps(2, x, height);
     OWNED(rb_rolling_solution) s;
     t->rc.mesh = RB_MESH_ALIGNED;
-    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_EINVAL, "the contact has several patches");
+    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &message), RB_EINVAL,
+               "the contact has several patches");
 }
 
 /* Patches that nearly touch are fitted as one; with equal elements they are the same. */
@@ -157,9 +158,9 @@ TEST(a_narrow_zone_is_told_its_width)
     rb_rolling_case rc = rolling_case("support halfplane half-width 1 zone 0.8");
     rb_rolling_solution s;
     double wide = 0.0, given = 0.0;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_ZONE);
     rb_rolling_solution_free(&s);
-    const char *at = NOT_NULL(strstr(heard.text, "half-width "));
+    const char *at = NOT_NULL(strstr(message.text, "half-width "));
     assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
     CHECK_ABS(given, 0.8, 1e-12, "the given one");
     assert_true(wide > 1.05 && wide < 2.0);
@@ -183,9 +184,9 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
         const double to = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
         rb_rolling_solution_free(&s);
         t->rc.zone = 0.5;
-        CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE);
+        CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &message), RB_ZONE);
         rb_rolling_solution_free(&s);
-        const char *at = NOT_NULL(strstr(heard.text, "half-width "));
+        const char *at = NOT_NULL(strstr(message.text, "half-width "));
         assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
         CHECK_REL(wide, side < 0 ? -from : to, 1e-3, "side %d", side);
         assert_true(wide > 3.0);
@@ -200,7 +201,7 @@ TEST(patches_too_far_apart_need_fitted_elements)
     OWNED(rb_rolling_solution) s;
     set(&t->rc, "load 1 formulation steady creep-ratio 0.5");
     t->rc.contact.solver = RB_SOLVER_LEMKE; /* not without a matrix */
-    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE, "equal elements would be needed");
+    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &message), RB_ZONE, "equal elements would be needed");
 }
 
 /* Without a table there is nothing beyond the radius: a soft interface spreads the
@@ -210,7 +211,7 @@ TEST(a_contact_as_wide_as_the_wheel_is_refused)
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
     set(&rc, "support halfplane mu 0 load 100 interlayer-normal 1e4 contact-elements 20");
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "the contact does not end within");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_ZONE, "the contact does not end within");
 }
 
 /* A given zone and the widest one fail alike: so much more than the given one is said. */
@@ -220,7 +221,7 @@ TEST(a_zone_without_an_end_is_told_a_third_more)
     held_table *t = bumps(1, x, height);
     OWNED(rb_rolling_solution) s;
     set(&t->rc, "load 1e6 zone 0.5");
-    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE,
+    CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &message), RB_ZONE,
                "half-width 0.5 mm; widen it to 0.65 mm");
 }
 

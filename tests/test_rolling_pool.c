@@ -48,11 +48,11 @@ static rb_rolling_sweep of(int count, int workers, unsigned also)
 static rb_rolling_row row_of(rb_rolling_pool *pool, int k)
 {
     rb_rolling_row row;
-    int which = -1, came = 0;
+    int which = -1, arrived = 0;
     CHECK_OK(pool->submit(pool, k));
-    for (int i = 0; i < 10000 && came == 0; i++)
-        came = pool->collect(pool, 20, &which, &row);
-    assert_int_equal(came, 1);
+    for (int i = 0; i < 10000 && arrived == 0; i++)
+        arrived = pool->collect(pool, 20, &which, &row);
+    assert_int_equal(arrived, 1);
     assert_int_equal(which, k);
     return row;
 }
@@ -166,7 +166,8 @@ TEST(workers_are_counted)
     pool->stop(pool);
     const rb_rolling_sweep bad[] = {of(-1, 1, 0), of(1, -1, 0), of(1, 257, 0)};
     for (int k = 0; k < 3; k++) {
-        CHECK_SAYS(rb_rolling_pool_start(&bad[k], &pool, &heard), RB_EINVAL, "expected 0 ... 256");
+        CHECK_SAYS(rb_rolling_pool_start(&bad[k], &pool, &message), RB_EINVAL,
+                   "expected 0 ... 256");
         assert_null(pool);
     }
 }
@@ -177,18 +178,18 @@ TEST(all_cases_come_back_once)
     enum { CASES = 12 };
     rb_rolling_sweep sweep = of(CASES, 3, 0);
     rb_rolling_pool *pool;
-    int seen[CASES] = {0}, given = 0, came = 0, deaths = 0;
+    int finished[CASES] = {0}, given = 0, arrived = 0, deaths = 0;
     sweep.context = &deaths;
     CHECK_OK(rb_rolling_pool_start(&sweep, &pool, NULL));
-    while (came < CASES) {
+    while (arrived < CASES) {
         rb_rolling_row row;
         int k = -1;
         while (given < CASES && pool->idle(pool) > 0)
             CHECK_OK(pool->submit(pool, given++));
         if (pool->collect(pool, 20, &k, &row) == 1) {
             assert_in_range(k, 0, CASES - 1);
-            assert_int_equal(seen[k]++, 0);
-            came++;
+            assert_int_equal(finished[k]++, 0);
+            arrived++;
             if (k != 3 && k != 4)
                 CHECK_REL(row.solution.normal_load, 100.0 * (k + 1), 1e-9, "case %d", k);
         }
@@ -243,7 +244,7 @@ TEST(a_pool_that_cannot_start_says_why)
 typedef struct {
     rb_rolling_pool pool;
     int idle, given, most, waiting[40000], submits, collects; /* fail after so many */
-    int seen, stopped;
+    int finished, stopped;
 } pretended;
 
 static int pretended_idle(rb_rolling_pool *pool)
@@ -282,7 +283,7 @@ static void pretended_stop(rb_rolling_pool *pool)
 static int see_in_order(int k, const rb_rolling_row *row, void *context)
 {
     pretended *p = context;
-    assert_int_equal(k, p->seen++);
+    assert_int_equal(k, p->finished++);
     CHECK_ABS(row->solution.normal_load, k, 0.0, "row %d", k);
     return 0;
 }
@@ -304,10 +305,10 @@ TEST(a_pool_s_rows_are_seen_in_order)
     rb_rolling_sweep sweep = of(40000, 1, 0);
     sweep.see = see_in_order;
     sweep.context = &p;
-    heard.text[0] = '\0';
-    CHECK_OK(rb_rolling_sweep_by(&sweep, &p.pool, &heard));
-    assert_string_equal(heard.text, "");
-    assert_int_equal(p.seen, 40000);
+    message.text[0] = '\0';
+    CHECK_OK(rb_rolling_sweep_by(&sweep, &p.pool, &message));
+    assert_string_equal(message.text, "");
+    assert_int_equal(p.finished, 40000);
     assert_int_equal(p.most, 16384);
     assert_int_equal(p.stopped, 1);
 }
@@ -320,9 +321,9 @@ TEST(a_pool_that_cannot_go_on_ends_the_study)
         rb_rolling_sweep sweep = of(5, 1, 0);
         sweep.see = see_in_order;
         sweep.context = &p;
-        CHECK_SAYS(rb_rolling_sweep_by(&sweep, &p.pool, &heard), RB_ENOMEM,
+        CHECK_SAYS(rb_rolling_sweep_by(&sweep, &p.pool, &message), RB_ENOMEM,
                    "cannot replace a lost process");
-        assert_int_equal(p.seen, 2);
+        assert_int_equal(p.finished, 2);
         assert_int_equal(p.stopped, 1);
     }
 }

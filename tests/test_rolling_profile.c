@@ -345,8 +345,8 @@ TEST(an_irregularity_stays_within_its_table)
     rb_rolling_case smooth = rc;
     rc.irregularity = (rb_rolling_table){6, u, rise};
     rb_rolling_mesh mesh, without;
-    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &heard));
-    CHECK_OK(rb_rolling_mesh_uniform(&smooth, NULL, -1.2, 1.2, &without, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &message));
+    CHECK_OK(rb_rolling_mesh_uniform(&smooth, NULL, -1.2, 1.2, &without, &message));
     for (int i = 0; i < mesh.n; i++) {
         const double at = 0.5 * (mesh.ends[i] + mesh.ends[i + 1]),
                      high = mesh.gap[i] - without.gap[i];
@@ -359,10 +359,10 @@ TEST(an_irregularity_stays_within_its_table)
 static void check_refused(int n, const double *u, const double *g, double noise, const char *text)
 {
     rb_rolling_profile *profile;
-    CHECK_STATUS(rb_rolling_profile_create(n, u, g, noise, &profile, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_profile_create(n, u, g, noise, &profile, &message), RB_EINVAL);
     assert_null(profile);
-    if (!strstr(heard.text, text))
-        fail_msg("'%s' does not say '%s'", heard.text, text);
+    if (!strstr(message.text, text))
+        fail_msg("'%s' does not say '%s'", message.text, text);
 }
 
 TEST(bad_tables_are_refused)
@@ -415,7 +415,7 @@ TEST(contact_beyond_the_table_is_no_result)
             rc.mesh = RB_MESH_FITTED;
         if (k & 8)
             rc.a.support = RB_BEM_HUB;
-        CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "from -5 to 5");
+        CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_ZONE, "from -5 to 5");
     }
     rb_rolling_profile_free(profile);
 }

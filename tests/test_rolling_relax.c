@@ -46,7 +46,7 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
                   rb_rolling_history *h)
 {
     OWNED(rb_rolling_model) model;
-    CHECK_OK(rb_rolling_history_run(rc, program, NULL, &model, h, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, program, NULL, &model, h, &message));
     for (int k = 0; k < h->n; k++)
         CHECK_MAX(h->residual[k], 1e-9, "step %d", k);
     if (rc->elastic_b == 0)
@@ -357,7 +357,7 @@ TEST(rolling_becomes_steady)
             OWNED(rb_rolling_history) h;
             OWNED(rb_rolling_solution) s;
             *(control ? &rc.force_ratio : &rc.creep_ratio) = control ? -0.4 : 0.5;
-            CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
+            CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &message));
             for (int k = 0; k < h.n; k++)
                 CHECK_MAX(h.residual[k], 1e-9, "step %d", k);
             CHECK_REL(h.step, model.bodies.f.h[0], 1e-9, "a step is an element");
@@ -365,7 +365,7 @@ TEST(rolling_becomes_steady)
             CHECK_REL(h.time[h.n - 1], 25.0 * h.half_width / rc.speed, 1e-12, "time");
             set(&rc, "formulation steady contact-elements %d", model.mesh.n);
             CHECK_OK(rb_rolling_solve_between(&rc, model.mesh.ends[0],
-                                              model.mesh.ends[model.mesh.n], &s, &heard));
+                                              model.mesh.ends[model.mesh.n], &s, &message));
             const int last = h.n - 1;
             error[j] = fabs(h.moment[last] / s.resistance_moment - 1.0);
             CHECK_REL(h.tangential_load[last], s.tangential_load, 2e-3 / (1 << 2 * j), "n %d: Q",
@@ -394,10 +394,10 @@ TEST(a_long_memory_has_the_steady_approach)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_solution) s;
-        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
+        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &message));
         set(&rc, "formulation steady contact-elements %d", model.mesh.n);
         CHECK_OK(rb_rolling_solve_between(&rc, model.mesh.ends[0], model.mesh.ends[model.mesh.n],
-                                          &s, &heard));
+                                          &s, &message));
         CHECK_ABS(h.approach[h.n - 1], s.approach, 2e-3 * (s.approach - h.approach[0]),
                   "case %d: approach", k);
         CHECK_REL((h.lost_work[h.n - 1] - h.lost_work[h.n - 2]) / h.step, s.hysteresis, 2e-2,
@@ -498,7 +498,7 @@ TEST(bad_programs_are_refused)
         }
         if (bad[k].hub)
             rc.a.support = RB_BEM_HUB;
-        CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &message), RB_EINVAL,
                    bad[k].word);
     }
 }
@@ -509,11 +509,11 @@ TEST(one_static_solve_is_refused)
     rb_rolling_case rc = with(relaxing(24), "load 100");
     rb_rolling_solution s;
     OWNED(rb_rolling_model) model;
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "history");
-    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &heard), RB_EINVAL);
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, "history");
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &message), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &message), RB_EINVAL);
     rc.increments = 3;
-    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL);
 }
 
 /* At rest and rolling; what there is is freed. */

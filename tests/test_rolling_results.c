@@ -161,7 +161,7 @@ TEST(the_surface_carries_the_tractions)
     rb_rolling_case rc = with(wheel_on_plane(0.3), "formulation steady creep-ratio 0.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const double *p = model.state.p;
-    int seen = 0;
+    int counted = 0;
     for (int i = REPLACED; i + REPLACED < model.mesh.n; i++) {
         const double xy[] = {model.bodies.f.x[i], 0.0};
         rb_rolling_stress s;
@@ -170,11 +170,11 @@ TEST(the_surface_carries_the_tractions)
                   "trace");
         if (!(p[i - REPLACED] > 0.0 && p[i + REPLACED] > 0.0))
             continue;
-        seen++;
+        counted++;
         CHECK_ABS(s.syy, -p[i], 1e-10 * model.problem.stress, "syy at %d", i);
         CHECK_ABS(s.sxy, -model.state.q[i], 1e-10 * model.problem.stress, "sxy at %d", i);
     }
-    assert_true(seen > 0.6 * model.mesh.n);
+    assert_true(counted > 0.6 * model.mesh.n);
     const double above[] = {0.0, -1e-3};
     rb_rolling_stress s;
     CHECK_STATUS(rb_rolling_stress_at(&model, 1, above, &s, NULL), RB_EINVAL);
@@ -210,9 +210,9 @@ TEST(a_point_outside_has_its_index)
         rc.a.support = supports[k];
         rc.contact_elements = 12;
         OWNED(rb_rolling_model) model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, s, &heard), RB_EINVAL);
-        if (!strstr(heard.text, "point 2 at (0, -1) lies outside the body"))
-            fail_msg("support %d: '%s'", k, heard.text);
+        CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, s, &message), RB_EINVAL);
+        if (!strstr(message.text, "point 2 at (0, -1) lies outside the body"))
+            fail_msg("support %d: '%s'", k, message.text);
     }
 }
 
@@ -421,9 +421,9 @@ TEST(no_result_knows_its_unit)
             const double length = units[u][0], stress = units[u][1];
             const rb_rolling_case rc = case_of_any_kind(k), other = in_units(rc, length, stress);
             OWNED(rb_rolling_solution) s, t;
-            if (rb_rolling_solve(&rc, &s, &heard) != RB_OK ||
-                rb_rolling_solve(&other, &t, &heard) != RB_OK)
-                fail_msg("case %d: %s", k, heard.text);
+            if (rb_rolling_solve(&rc, &s, &message) != RB_OK ||
+                rb_rolling_solve(&other, &t, &message) != RB_OK)
+                fail_msg("case %d: %s", k, message.text);
             assert_int_equal(s.n, t.n);
             const double one[] = {s.half_width, s.max_pressure, s.normal_load};
             for (int i = 0; i < rb_rolling_solution_scalars.n; i++) {

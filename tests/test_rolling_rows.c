@@ -13,7 +13,7 @@
 static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *h)
 {
-    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, h, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, h, &message));
     for (int k = 0; k < h->n; k++)
         CHECK_MAX(h->residual[k], 1e-9, "row %d", k + 1);
 }
@@ -227,7 +227,7 @@ TEST(rows_without_contact_have_no_force)
         const rb_rolling_case rc = rolling_case(STEEL "similar radius 100 mu 0.3");
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_model) model;
-        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &heard),
+        CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &message),
                    RB_EINVAL, bad[k].says);
     }
 }
@@ -385,7 +385,7 @@ TEST(steady_is_said_of_what_is)
         OWNED(rb_rolling_model) model;
         if (cases[k].corrugated)
             rc.irregularity = (rb_rolling_table){.n = ROWS, .x = x, .y = gap};
-        CHECK_OK(rb_rolling_history_run(&rc, cases[k].program, NULL, &model, &h, &heard));
+        CHECK_OK(rb_rolling_history_run(&rc, cases[k].program, NULL, &model, &h, &message));
         const int found = h.steady_from, want = cases[k].steady;
         if (want == 0 ? found != -1 : want < 0 ? found != 1 : !(found > 1 && found < h.n - 1))
             fail_msg("case %zu: steady from %d of %d", k, found, h.n);

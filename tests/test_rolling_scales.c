@@ -17,8 +17,8 @@ static rb_case *solve_words(const char *const part[], const char *name, double v
     for (int k = 0; part[k]; k++)
         w.word[k] = part[k];
     rb_case *c = case_of(RB_CASE_SINGLE, &w, name, value);
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &heard) != RB_OK)
-        fail_msg("%s: %s", part[0], heard.text);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &message) != RB_OK)
+        fail_msg("%s: %s", part[0], message.text);
     return c;
 }
 
@@ -121,12 +121,13 @@ TEST(a_gap_without_a_radius_has_no_ratios)
         held_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         snprintf(text, sizeof text, "%s %s", w.word[0], w.word[1]);
         for (char *option; (option = strtok_r(rest, " ", &rest));)
-            CHECK_OK(rb_case_set(c, option, strtok_r(NULL, " ", &rest), RB_GIVEN_ARGUMENT, &heard));
+            CHECK_OK(
+                rb_case_set(c, option, strtok_r(NULL, " ", &rest), RB_GIVEN_ARGUMENT, &message));
         if (!*refused[k].says) {
-            CHECK_OK(rb_case_resolve(c, &heard));
+            CHECK_OK(rb_case_resolve(c, &message));
             continue;
         }
-        CHECK_SAYS(rb_case_resolve(c, &heard), RB_EINVAL, refused[k].says);
+        CHECK_SAYS(rb_case_resolve(c, &message), RB_EINVAL, refused[k].says);
     }
     OWNED(rb_case_result) rolled, given;
     held_case *c = solve_words(

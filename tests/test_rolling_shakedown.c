@@ -65,7 +65,7 @@ TEST(johnsons_map_is_met)
         const rb_rolling_case rc = sliding(mu);
         rb_rolling_shakedown limit;
         double p0, want = 0.0;
-        CHECK_OK(limit_of(&rc, &limit, &p0, &heard));
+        CHECK_OK(limit_of(&rc, &limit, &p0, &message));
         for (int j = 0; j <= 60; j++)
             want = fmax(want, needed_at(mu, 0.01 * j));
         CHECK_REL(limit.shear_yield / p0, want, 3e-3, "mu = %g", mu);
@@ -88,7 +88,7 @@ TEST(what_is_no_half_plane_is_refused)
             rc.a.support = RB_BEM_HUB;
         else
             rc.a.layer = 2.0;
-        CHECK_SAYS(limit_of(&rc, &limit, &p0, &heard), RB_EINVAL, k ? "half-plane" : "layer");
+        CHECK_SAYS(limit_of(&rc, &limit, &p0, &message), RB_EINVAL, k ? "half-plane" : "layer");
     }
 }
 

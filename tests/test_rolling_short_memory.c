@@ -29,7 +29,7 @@ static rb_rolling_case few(rb_rolling_formulation formulation, int elements, con
 
 /* ---- Tasks ------------------------------------------------------------------------- */
 
-static rb_status solve(void *context)
+static rb_status solve_in_context(void *context)
 {
     task *t = context;
     OWNED(rb_rolling_solution) s;
@@ -239,24 +239,24 @@ static void fail_all(const char *name, rb_status (*work)(void *),
 
 TEST(solutions_are_short_of_memory)
 {
-    FAIL(solve, RB_STEADY, 8, "poisson 0.3");
-    FAIL(solve, RB_STEADY, 8, "slip-operator second");
-    FAIL(solve, RB_STEADY, 8, YIELDING);
-    FAIL(solve, RB_STEADY, 8, "mesh fitted poisson 0.3");
-    FAIL(solve, RB_STEADY, 12, "mesh aligned");
-    FAIL(solve, RB_STEADY, 8, WARM);
-    FAIL(solve, RB_STEADY, 8, RELAXING);
-    FAIL(solve, RB_STEADY, 8, WHEEL);
+    FAIL(solve_in_context, RB_STEADY, 8, "poisson 0.3");
+    FAIL(solve_in_context, RB_STEADY, 8, "slip-operator second");
+    FAIL(solve_in_context, RB_STEADY, 8, YIELDING);
+    FAIL(solve_in_context, RB_STEADY, 8, "mesh fitted poisson 0.3");
+    FAIL(solve_in_context, RB_STEADY, 12, "mesh aligned");
+    FAIL(solve_in_context, RB_STEADY, 8, WARM);
+    FAIL(solve_in_context, RB_STEADY, 8, RELAXING);
+    FAIL(solve_in_context, RB_STEADY, 8, WHEEL);
     FAIL(again, RB_STEADY, 8, "");
     FAIL(again, RB_STEADY, 8, FALLING WARM);
 }
 
 TEST(friction_laws_are_short_of_memory)
 {
-    FAIL(solve, RB_STEADY, 8, FALLING);
-    FAIL(solve, RB_TRANSIENT, 8, FALLING);
-    FAIL(solve, RB_STEADY, 8, FALLING "creep-ratio nan force-ratio -0.4");
-    FAIL(solve, RB_STEADY, 8, FALLING WARM);
+    FAIL(solve_in_context, RB_STEADY, 8, FALLING);
+    FAIL(solve_in_context, RB_TRANSIENT, 8, FALLING);
+    FAIL(solve_in_context, RB_STEADY, 8, FALLING "creep-ratio nan force-ratio -0.4");
+    FAIL(solve_in_context, RB_STEADY, 8, FALLING WARM);
     FAIL(curve, RB_STEADY, 8, FALLING);
     FAIL(solutions, RB_STEADY, 6, FALLING);
 }
@@ -268,9 +268,9 @@ TEST(tasks_are_short_of_memory)
     FAIL(curve, RB_STEADY, 24, "mesh aligned");
     FAIL(curve_of_speeds, RB_STEADY, 8, RELAXING);
     FAIL(history, RB_TRANSIENT, 12, "");
-    FAIL(solve, RB_TRANSIENT, 8, YIELDING);
-    FAIL(solve, RB_TRANSIENT, 8, WARM);
-    FAIL(solve, RB_TRANSIENT, 8, RELAXING);
+    FAIL(solve_in_context, RB_TRANSIENT, 8, YIELDING);
+    FAIL(solve_in_context, RB_TRANSIENT, 8, WARM);
+    FAIL(solve_in_context, RB_TRANSIENT, 8, RELAXING);
     FAIL(history_in_time, RB_STATIC, 8, RELAXING);
     FAIL(slide, RB_STATIC, 8, "");
     FAIL(fret, RB_STATIC, 8, "creep-ratio nan force-ratio 0.5");

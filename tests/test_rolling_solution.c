@@ -159,20 +159,20 @@ TEST(elements_may_stand_where_they_are_told)
 {
     rb_rolling_case rc = rolled_plane(RB_STATIC);
     rb_rolling_solution s;
-    CHECK_OK(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &heard));
+    CHECK_OK(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &message));
     assert_int_equal(s.n, 24);
     CHECK_REL(s.h[3], 0.15, 1e-12, "3.6 mm");
     CHECK_REL(s.normal_load, 500.0, 1e-9, "load");
     rb_rolling_solution_free(&s);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -0.3, 0.3, &s, &heard), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -0.3, 0.3, &s, &message), RB_ZONE);
     CHECK_STATUS(s.status, RB_ZONE);
-    assert_non_null(strstr(heard.text, "widen the zone"));
+    assert_non_null(strstr(message.text, "widen the zone"));
     assert_int_equal(s.n, 24); /* what there is */
     rb_rolling_solution_free(&s);
-    CHECK_STATUS(rb_rolling_solve_between(&rc, 0.3, 0.3, &s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, 0.3, 0.3, &s, &message), RB_EINVAL);
     assert_null(s.p);
     rc.mu = -1.0;
-    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 2.0, &s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 2.0, &s, &message), RB_EINVAL);
     assert_null(s.p);
 }
 

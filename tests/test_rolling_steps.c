@@ -25,7 +25,7 @@ static rb_rolling_case kind_of_case(int k)
 static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *h)
 {
-    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, h, &heard));
+    CHECK_OK(rb_rolling_history_run(rc, program, NULL, model, h, &message));
 }
 
 static void release(rb_rolling_model *model, rb_rolling_history *h)
@@ -34,9 +34,9 @@ static void release(rb_rolling_model *model, rb_rolling_history *h)
     rb_rolling_history_free(h);
 }
 
-static void solve(const rb_rolling_case *rc, rb_rolling_solution *s)
+static void solve_steps(const rb_rolling_case *rc, rb_rolling_solution *s)
 {
-    CHECK_OK(rb_rolling_solve(rc, s, &heard));
+    CHECK_OK(rb_rolling_solve(rc, s, &message));
 }
 
 static void check_same(const rb_rolling_solution *a, const rb_rolling_solution *b, int k)
@@ -73,7 +73,7 @@ TEST(one_step_at_rest_is_a_static_case)
                 one.force_ratio = 0.4;
             else
                 one.shift = 1e-3;
-            solve(&one, &single);
+            solve_steps(&one, &single);
             const rb_rolling_program row = {.n = 1,
                                             .force_ratio = by_force ? force : NULL,
                                             .shift = by_force ? NULL : &one.shift};
@@ -87,7 +87,7 @@ TEST(one_step_at_rest_is_a_static_case)
                 rc.creep_ratio = NAN; /* in rolling a force stands in its place */
                 one.creep_ratio = NAN;
                 rb_rolling_solution_free(&single);
-                solve(&one, &single);
+                solve_steps(&one, &single);
                 rc.formulation = RB_TRANSIENT;
                 run(&rc, &rest, &model, &h);
                 CHECK_OK(rb_rolling_model_solution(&model, &step, NULL));
@@ -220,7 +220,7 @@ TEST(increments_end_where_the_case_says)
             OWNED(rb_rolling_solution) s;
             set(&rc, "increments 4 zone auto shift %g force-ratio %g", by_force ? NAN : 2e-3,
                 by_force ? -0.3 : NAN);
-            solve(&rc, &s);
+            solve_steps(&rc, &s);
             if (k < KINDS / 2)
                 CHECK_REL(s.normal_load, rc.load, 1e-9, "kind %d: P", k);
             else
@@ -256,9 +256,9 @@ TEST(similar_bodies_press_at_once)
     rc.elastic_b = 1;
     rc.b = rc.a;
     set(&rc, "radius-b plane force-ratio 0.5");
-    solve(&rc, &one);
+    solve_steps(&rc, &one);
     rc.increments = 5;
-    solve(&rc, &many);
+    solve_steps(&rc, &many);
     for (int i = 0; i < one.n; i++)
         CHECK_ABS(many.q[i], one.q[i], 1e-9 * one.max_pressure, "q, element %d", i);
     set(&rc, "formulation transient distance 0.5");
@@ -425,7 +425,7 @@ TEST(nothing_passes_unnoticed)
         if (k == 2) {
             OWNED(rb_rolling_solution) steady;
             rc.formulation = RB_STEADY;
-            solve(&rc, &steady);
+            solve_steps(&rc, &steady);
             CHECK_REL(h[1].force_ratio[h[1].n - 1], steady.force_ratio, 3e-3, "steady");
         }
         release(&model[0], &h[0]);
@@ -551,7 +551,7 @@ TEST(zones_grow_with_what_passes)
     assert_true(h.distance[h.n - 1] == 12.0);
     release(&model, &h);
     moving.zone = 1.3 * a;
-    CHECK_SAYS(rb_rolling_history_run(&moving, NULL, NULL, &model, &h, &heard), RB_ZONE,
+    CHECK_SAYS(rb_rolling_history_run(&moving, NULL, NULL, &model, &h, &message), RB_ZONE,
                "widen the zone");
     release(&model, &h);
 }
@@ -576,7 +576,7 @@ TEST(bad_irregularities_are_refused)
         rc.irregularity.n = bad[k].n;
         rc.irregularity.x = bad[k].x;
         rc.irregularity.y = bad[k].gap;
-        CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, bad[k].word);
+        CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, bad[k].word);
     }
 }
 

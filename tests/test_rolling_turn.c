@@ -122,9 +122,9 @@ TEST(bad_wheels_are_refused)
         const rb_bem_surface any = rb_bem_halfplane(steel, 1.0);
         CHECK_OK(rb_bem_flexibility_surface(2, ends, &any, &f, NULL));
         CHECK_STATUS(
-            rb_bem_flexibility_add_memory(&wheel[k], RB_BEM_NORMALS_OBSTACLE, ends, &f, &heard),
+            rb_bem_flexibility_add_memory(&wheel[k], RB_BEM_NORMALS_OBSTACLE, ends, &f, &message),
             RB_EINVAL);
-        assert_true(strlen(heard.text) > 0);
+        assert_true(strlen(message.text) > 0);
     }
 }
 
@@ -438,7 +438,7 @@ TEST(resistance_has_a_maximum_over_the_speed)
     double value[3];
     int turns = 0;
     CHECK_OK(rb_rolling_curve_solve(
-        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5, RB_UNITS_MM}, &c, &heard));
+        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5, RB_UNITS_MM}, &c, &message));
     for (int k = 1; k < 4; k++)
         turns += c.resistance_ratio[k] > c.resistance_ratio[k - 1] &&
                  c.resistance_ratio[k] > c.resistance_ratio[k + 1];
@@ -455,7 +455,7 @@ TEST(what_does_not_turn_is_refused)
         rb_rolling_case rc = wheel(40);
         rc.a.support = k == 0 ? RB_BEM_ARC : RB_BEM_HUB;
         rc.formulation = k == 1 ? RB_TRANSIENT : RB_STEADY;
-        CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, word[k]);
+        CHECK_SAYS(rb_rolling_case_check(&rc, &message), RB_EINVAL, word[k]);
     }
 }
 

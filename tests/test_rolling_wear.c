@@ -36,7 +36,7 @@ typedef struct {
 static worn run(const rb_rolling_case *rc, const rb_rolling_wear *wear)
 {
     worn w;
-    CHECK_OK(rb_rolling_wear_run(rc, wear, NULL, &w.h, &w.last, &heard));
+    CHECK_OK(rb_rolling_wear_run(rc, wear, NULL, &w.h, &w.last, &message));
     return w;
 }
 
@@ -144,7 +144,7 @@ TEST(wear_has_error_bars)
                                       .coefficient = 1e-9,
                                       .way = 4.0 / rc.a.radius / (1e-9 * rc.load),
                                       .steps = steps};
-        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &message));
         const int last = w.h.n - 1;
         assert_non_null(w.h.errors);
         assert_null(w.h.errors->worn_b);
@@ -160,12 +160,13 @@ TEST(wear_has_error_bars)
                                    .steps = 2,
                                    .increments = 2,
                                    .share = 0.5};
-    CHECK_OK(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &heard));
+    CHECK_OK(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &message));
     assert_true(isnan(w.h.errors->max_pressure[2]) && w.h.errors->worn_b[2] > 0.0 &&
                 w.h.errors->worn[1] > 0.0);
     worn_free(&w);
     rc.contact_elements = 5; /* too few to be halved */
-    CHECK_STATUS(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &message),
+                 RB_EINVAL);
     worn_free(&w);
 }
 
@@ -200,7 +201,7 @@ TEST(punch_wears_to_uniform_pressure)
         const double beyond = fmax(0.0, fabs(x[k]) - 1.0);
         gap[k] = 5.0 * beyond * beyond;
     }
-    CHECK_OK(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, &heard));
+    CHECK_OK(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, &message));
     rc.gap = RB_GAP_TABLE;
     rc.profile = profile;
     const rb_rolling_wear wear = sliding(&rc, 50.0, 30);
@@ -265,7 +266,7 @@ TEST(an_edge_of_stick_has_its_place_in_an_element)
                  "force-ratio 0.64 zone auto");
         worn w;
         if (k == 2)
-            CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+            CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &message));
         else
             w = run(&rc, &wear);
         CHECK_REL(w.h.worn[10], VOLUME, rows[k].within, "%d elements", rows[k].elements);
@@ -297,9 +298,9 @@ TEST(bars_hold_where_the_order_is_the_first)
                                       .increments = 4};
         rb_rolling_case rc = half_plane(RB_STATIC, 60);
         set(&rc, "young 210000 poisson 0.3 gap parabola radius 100 load 100 force-ratio 0.64");
-        set(&rc, rows[k].words);
+        set(&rc, "%s", rows[k].words);
         worn w;
-        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &message));
         CHECK_ABS(w.h.worn[10], rows[k].volume, w.h.errors->worn[10], "%s", rows[k].words);
         CHECK_MAX(w.h.errors->worn[10], rows[k].most * rows[k].volume, "%s", rows[k].words);
         worn_free(&w);
@@ -461,7 +462,7 @@ TEST(shares_lie_between_0_and_1)
         OWNED(rb_rolling_wear_history) h;
         OWNED(rb_rolling_solution) last;
         const rb_rolling_wear wear = shared(sliding(&rc, 0.1, 1), shares[k]);
-        CHECK_SAYS(rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &message), RB_EINVAL,
                    "wear-share: expected a number in [0, 1]");
     }
 }
@@ -489,7 +490,7 @@ TEST(meaningless_wear_is_refused)
     set(&bad[5], "support hub cover-thickness 1");
     for (int k = 0; k < BAD; k++) {
         worn w;
-        CHECK_SAYS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &heard), RB_EINVAL,
+        CHECK_SAYS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &message), RB_EINVAL,
                    words[k]);
         worn_free(&w);
     }
@@ -528,10 +529,10 @@ TEST(friction_laws_wear_where_they_can)
         if (k == 2) {
             set(&rc, "formulation steady creep 1e-3 zone auto");
         }
-        CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &w.h, &w.last, &heard),
+        CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &w.h, &w.last, &message),
                      k == 1 ? RB_EINVAL : RB_OK);
         if (k == 1)
-            assert_non_null(strstr(heard.text, "the law of dissipation takes one"));
+            assert_non_null(strstr(message.text, "the law of dissipation takes one"));
         worn_free(&w);
     }
 }

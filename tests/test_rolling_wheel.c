@@ -395,7 +395,7 @@ TEST(a_small_arc_has_elements_of_its_own)
             rows[k].arc);
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
-        CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, &heard));
+        CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, &message));
         found[k] = s.approach;
         CHECK_MAX(s.boundary_elements, 500, "elements at %g degrees", rows[k].arc);
         if (k > 0)

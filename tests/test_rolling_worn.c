@@ -15,7 +15,7 @@ static rb_rolling_case plane(int elements)
 typedef struct {
     rb_rolling_wear_history h;
     rb_rolling_solution last;
-    int seen, stop_at;
+    int counted, stop_at;
     double worn[3], p[3], x; /* at an element, after each step */
     rb_status status;
     rb_message why;
@@ -26,7 +26,7 @@ static int see(rb_rolling_solution *s, const rb_rolling_wear_history *h, int ste
 {
     run *r = context;
     const int k = s->n / 2 + 2;
-    assert_int_equal(step, r->seen);
+    assert_int_equal(step, r->counted);
     assert_int_equal(h->n, step + 1);
     assert_true(steps >= step);
     if (step < 3) {
@@ -34,14 +34,14 @@ static int see(rb_rolling_solution *s, const rb_rolling_wear_history *h, int ste
         r->p[step] = s->p[k];
         r->x = s->x[k];
     }
-    return ++r->seen == r->stop_at;
+    return ++r->counted == r->stop_at;
 }
 
 static void start(run *r, const rb_rolling_case *rc, const rb_rolling_wear *wear)
 {
     const rb_rolling_wear_observer observer = {see, r};
     r->why.text[0] = '\0';
-    r->seen = 0;
+    r->counted = 0;
     r->status = rb_rolling_wear_run(rc, wear, &observer, &r->h, &r->last, &r->why);
 }
 
@@ -63,7 +63,7 @@ TEST(a_step_takes_off_what_its_pressure_wears)
                                       .steps = 2};
         start(&r, &rc, &wear);
         CHECK_OK(r.status);
-        assert_int_equal(r.seen, 3);
+        assert_int_equal(r.counted, 3);
         assert_int_equal(r.h.n, 3);
         assert_int_equal(r.h.slides, 1);
         assert_int_equal(r.h.rolls, 0);
@@ -280,7 +280,7 @@ TEST(wear_that_makes_no_sense_is_refused)
         CHECK_STATUS(r.status, RB_EINVAL);                                                         \
         if (!strstr(r.why.text, words))                                                            \
             fail_msg("'%s' does not say '%s'", r.why.text, words);                                 \
-        assert_int_equal(r.seen, 0);                                                               \
+        assert_int_equal(r.counted, 0);                                                            \
         finish(&r);                                                                                \
     } while (0)
 #define STEADY rc.formulation = RB_STEADY, wear.slides = 0

@@ -87,8 +87,8 @@ TEST(rolling_from_a_shift_is_met)
     double r[2 * N], w[2 * (N + 1)], w_T[N], yielded[N + 1] = {0}, own[N];
 
     rc.contact_elements = N;
-    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &heard));
-    CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &message));
+    CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &message));
     CHECK_OK(rb_contact_state_alloc(N, &x));
     for (int step = 0; step < 6; step++) {
         const rb_rolling_past past = {w_T, yielded, 0.08};
@@ -96,8 +96,8 @@ TEST(rolling_from_a_shift_is_met)
         int stick, slip, yield;
         set(&rc, "formulation %s creep %g force-ratio %g", step ? "transient" : "static",
             step ? -0.0004 : NAN, step ? NAN : 0.6);
-        CHECK_OK(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &heard));
-        CHECK_OK(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &heard));
+        CHECK_OK(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &message));
+        CHECK_OK(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &message));
         double Q = 0.0;
         for (int i = 0; i < N; i++)
             Q += 0.08 * x.q[i];
@@ -296,13 +296,13 @@ TEST(small_yield_stress_is_a_bound)
 typedef struct {
     double *before; /* n: yielded after the step before */
     int n, steps, yields;
-} seen;
+} yield_record;
 
 /* Bound and growth of what has yielded, step by step. */
 static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int step, int steps,
                     void *context)
 {
-    seen *c = context;
+    yield_record *c = context;
     const rb_contact_problem *p = &m->problem;
     (void)h;
     (void)step;
@@ -312,7 +312,7 @@ static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int 
         c->before = calloc((size_t)p->n, sizeof *c->before);
     }
     OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_model_solution(m, &s, &heard));
+    CHECK_OK(rb_rolling_model_solution(m, &s, &message));
     for (int i = 0; i < p->n; i++) {
         const double tau = m->rc->yield_stress + m->rc->hardening * s.plastic[i];
         const double own = s.plastic[i] - c->before[i];
@@ -338,11 +338,11 @@ TEST(shift_to_and_fro_hardens)
     rb_rolling_program program = {.n = 8, .shift = shift};
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
-    seen c = {0};
+    yield_record c = {0};
 
     set(&rc, "formulation static creep nan contact-elements 40");
     CHECK_OK(rb_rolling_history_run(&rc, &program, &(rb_rolling_observer){see_step, &c}, &model,
-                                    &history, &heard));
+                                    &history, &message));
     assert_int_equal(c.steps, 8);
     assert_true(c.yields > 40);
     free(c.before);
@@ -387,7 +387,7 @@ TEST(forces_find_their_creepage)
 static void refused(rb_rolling_case rc, const char *words)
 {
     OWNED(rb_rolling_solution) s;
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, words);
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_EINVAL, words);
 }
 
 TEST(bad_layers_are_refused)

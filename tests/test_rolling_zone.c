@@ -185,7 +185,7 @@ static void take_table(rb_rolling_case *rc)
 {
     rb_rolling_profile_free(profile);
     profile = NULL;
-    CHECK_OK(rb_rolling_profile_create(POINTS, table_x, table_gap, 0.0, &profile, &heard));
+    CHECK_OK(rb_rolling_profile_create(POINTS, table_x, table_gap, 0.0, &profile, &message));
     rc->gap = RB_GAP_TABLE;
     rc->profile = profile;
 }
@@ -309,9 +309,9 @@ TEST(stress_is_looked_for_below_every_patch)
     OWNED(rb_rolling_solution) s;
     OWNED(rb_rolling_stress_maxima) maxima = {.bonds = 0};
     set_lobes(&rc, 25.0, 0.004, 1);
-    if (rb_rolling_solve_model(&rc, &model, &s, &heard) != RB_OK ||
-        rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (rb_rolling_solve_model(&rc, &model, &s, &message) != RB_OK ||
+        rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &message) != RB_OK)
+        fail_msg("%s", message.text);
     assert_int_equal(s.patches, 2);
     const rb_rolling_patch *p = &s.patch[0]; /* the lower lobe carries more */
     const double a = 0.5 * (p->to - p->from);
@@ -329,7 +329,7 @@ TEST(a_given_zone_must_hold_every_patch)
         table_x[i] += 3.0;
     take_table(&rc);
     rc.zone = 1.0;
-    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "widen it");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_ZONE, "widen it");
 }
 
 /* ---- Refusals ---------------------------------------------------------------------- */
@@ -341,7 +341,7 @@ TEST(a_contact_without_an_end_is_refused)
     set_table(&rc, 0.6, 0.0);
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "table");
+        CHECK_SAYS(rb_rolling_solve(&rc, &s, &message), RB_ZONE, "table");
         assert_int_equal(s.status, RB_ZONE);
         rb_rolling_solution_free(&s);
     }
@@ -355,15 +355,15 @@ TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
     OWNED(rb_rolling_history) history;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
     CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7, RB_UNITS_MM},
-                                        &curve, &heard),
+                                        &curve, &message),
                  RB_ZONE);
     rb_rolling_curve_free(&curve);
     set(&rc, "formulation transient creep-ratio 3 distance 3");
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard), RB_ZONE);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &message), RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
     rc.zone = 0.0;
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7, RB_UNITS_MM}, &curve,
-                                    &heard));
+                                    &message));
     rb_rolling_curve_free(&curve);
 }
 
@@ -457,13 +457,13 @@ TEST(free_rolling_may_need_other_elements)
     double creepage;
     OWNED(rb_rolling_solution) freely = solved(&rc);
     set(&rc, "force-ratio nan creep-ratio 3");
-    CHECK_OK(rb_rolling_model_begin(&rc, NULL, &model, &heard));
-    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.85, 1.6, &mesh, &heard));
-    CHECK_OK(rb_rolling_model_build(&model, &mesh, &heard));
-    CHECK_OK(rb_rolling_free_creepage(&model, &creepage, &heard));
+    CHECK_OK(rb_rolling_model_begin(&rc, NULL, &model, &message));
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.85, 1.6, &mesh, &message));
+    CHECK_OK(rb_rolling_model_build(&model, &mesh, &message));
+    CHECK_OK(rb_rolling_free_creepage(&model, &creepage, &message));
     CHECK_REL(creepage, freely.creepage, 1e-9, "on its own elements");
     case_of_model(&model)->zone = 1.6; /* a given zone stays */
-    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &heard), RB_ZONE);
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &message), RB_ZONE);
 }
 
 TEST(every_failed_allocation_is_reported)
@@ -488,7 +488,8 @@ TEST(a_history_grows_its_zone_to_the_end_of_the_table)
     OWNED(rb_rolling_history) history;
     set(&rc, "half-width 1 formulation transient creep-ratio 3 distance 3");
     set_table(&rc, 1.25, 0.0);
-    CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard), RB_ZONE, "table");
+    CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &message), RB_ZONE,
+               "table");
     CHECK_ABS(model.mesh.ends[model.mesh.n], 1.25, 1e-2, "the widest zone");
 }
 
@@ -501,9 +502,9 @@ TEST(elements_are_as_long_as_the_layer_at_most)
         OWNED(rb_rolling_solution) s;
         rc.zone = 1.0; /* elements of 0.1 */
         rc.a.layer = k ? 0.1 * (1.0 - 1e-6) : 0.1;
-        CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), k ? RB_EINVAL : RB_OK);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &message), k ? RB_EINVAL : RB_OK);
         if (k)
-            assert_non_null(strstr(heard.text, "layer-thickness: with nu = 0.5"));
+            assert_non_null(strstr(message.text, "layer-thickness: with nu = 0.5"));
     }
 }
 

@@ -70,14 +70,14 @@ TEST(a_hardness_is_a_modulus)
             for (int u = RB_UNITS_MM; u <= RB_UNITS_INCH; u++) {
                 rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
                 CHECK_OK(
-                    rb_case_set(c, "units", rb_case_word("units", u), RB_GIVEN_ARGUMENT, &heard));
+                    rb_case_set(c, "units", rb_case_word("units", u), RB_GIVEN_ARGUMENT, &message));
                 /* a modulus has no other word for its name */
                 if (!strstr(o->name, "young")) {
-                    CHECK_STATUS(rb_case_set(c, o->name, text[k], RB_GIVEN_ARGUMENT, &heard),
+                    CHECK_STATUS(rb_case_set(c, o->name, text[k], RB_GIVEN_ARGUMENT, &message),
                                  RB_EINVAL);
                 } else {
                     moduli += k == 0 && u == RB_UNITS_MM;
-                    CHECK_OK(rb_case_set(c, o->name, text[k], RB_GIVEN_ARGUMENT, &heard));
+                    CHECK_OK(rb_case_set(c, o->name, text[k], RB_GIVEN_ARGUMENT, &message));
                     const rb_option_set set = rb_case_options(c);
                     rb_resolved_case stored = *(const rb_resolved_case *)set.target;
                     rb_case_store(c, &set, &stored);
@@ -109,10 +109,10 @@ TEST(a_hardness_may_mean_nothing)
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         if (rows[k].says)
-            CHECK_SAYS(rb_case_set(c, "young", rows[k].text, RB_GIVEN_ARGUMENT, &heard), RB_EINVAL,
-                       rows[k].says);
+            CHECK_SAYS(rb_case_set(c, "young", rows[k].text, RB_GIVEN_ARGUMENT, &message),
+                       RB_EINVAL, rows[k].says);
         else
-            CHECK_OK(rb_case_set(c, "young", rows[k].text, RB_GIVEN_ARGUMENT, &heard));
+            CHECK_OK(rb_case_set(c, "young", rows[k].text, RB_GIVEN_ARGUMENT, &message));
         rb_case_free(c);
     }
 }
@@ -135,9 +135,9 @@ TEST(a_hardness_is_said_with_its_band)
         rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         char text[RB_ROLLING_NOTE_LENGTH];
         int said = 0;
-        CHECK_OK(rb_case_set(c, "units", rows[k].units, RB_GIVEN_ARGUMENT, &heard));
-        CHECK_OK(rb_case_set(c, rows[k].name, rows[k].text, RB_GIVEN_ARGUMENT, &heard));
-        CHECK_OK(rb_case_resolve(c, &heard));
+        CHECK_OK(rb_case_set(c, "units", rows[k].units, RB_GIVEN_ARGUMENT, &message));
+        CHECK_OK(rb_case_set(c, rows[k].name, rows[k].text, RB_GIVEN_ARGUMENT, &message));
+        CHECK_OK(rb_case_resolve(c, &message));
         for (int j = 0; rb_case_hardness(c, j, text, sizeof text); j++)
             if (*text) {
                 said++;

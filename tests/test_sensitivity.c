@@ -10,8 +10,8 @@
 static rb_case *solved(const words *w, const char *name, double value, rb_case_result *r)
 {
     rb_case *c = case_of(RB_CASE_SINGLE, w, name, value);
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &message) != RB_OK)
+        fail_msg("%s", message.text);
     return c;
 }
 
@@ -141,8 +141,8 @@ TEST(derivatives_are_those_of_solutions)
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&regimes[k], NULL, 0.0, &r);
         int compared = 0;
-        if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard) != RB_OK)
-            fail_msg("regime %d: %s", (int)k, heard.text);
+        if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &message) != RB_OK)
+            fail_msg("regime %d: %s", (int)k, message.text);
         for (int j = 0; j < all.n; j++) {
             if (all.of[j].status != RB_OK)
                 fail_msg("regime %d, %s: %s", (int)k, all.of[j].name, all.of[j].why.text);
@@ -165,8 +165,8 @@ TEST(a_model_without_a_matrix_is_given_one)
     for (int k = 0; k < 2; k++) {
         held_case *c = solved(&w[k], NULL, 0.0, &r[k]);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
-        if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &heard) != RB_OK)
-            fail_msg("%s", heard.text);
+        if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &message) != RB_OK)
+            fail_msg("%s", message.text);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
     }
     assert_int_equal(all[0].n, all[1].n);
@@ -198,25 +198,25 @@ TEST(forward_is_adjoint)
         held_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
         const rb_contact_problem *p = &r.model.problem;
         int n;
-        CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &heard));
-        CHECK_OK(rb_case_numbers(c, number, &n, &heard));
+        CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &message));
+        CHECK_OK(rb_case_numbers(c, number, &n, &message));
         CHECK_OK(rb_contact_state_alloc(p->n, &weight));
         CHECK_OK(rb_sensitivity_rate_alloc(p->n, &adjoint));
         memcpy(weight.p, p->force_N, (size_t)p->n * sizeof(double));
         memcpy(weight.q, p->force_T, (size_t)p->n * sizeof(double));
         weight.xi = 1e5; /* Q + 1e5 xi + 1e3 delta: all that there is */
         weight.delta = 1e3;
-        CHECK_OK(rb_sensitivity_adjoint(s, &weight, &adjoint, &heard));
+        CHECK_OK(rb_sensitivity_adjoint(s, &weight, &adjoint, &message));
         for (int j = 0; j < n; j++) {
             OWNED(rb_sensitivity_derivative) d;
-            CHECK_OK(rb_sensitivity_differentiate(s, &number[j].input, &d, &heard));
+            CHECK_OK(rb_sensitivity_differentiate(s, &number[j].input, &d, &message));
             const int side = d.has[0] ? 0 : 1;
             OWNED(rb_contact_state) y;
             OWNED(rb_sensitivity_rate) rate;
             double mu;
             CHECK_OK(rb_contact_state_alloc(p->n, &y));
-            CHECK_OK(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &heard));
-            CHECK_OK(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &heard));
+            CHECK_OK(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &message));
+            CHECK_OK(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &message));
             double want = 1e5 * y.xi + 1e3 * y.delta, size = fabs(want);
             for (int i = 0; i < p->n; i++) {
                 want += p->force_N[i] * y.p[i] + p->force_T[i] * y.q[i];
@@ -250,7 +250,7 @@ TEST(vectors_add_up)
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&some[k], NULL, 0.0, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
         const int n = all.n_x;
         assert_int_equal(n, r.solution.n);
         for (int f = 0; f < RB_CASE_OVER_X_N; f++) {
@@ -289,7 +289,7 @@ TEST(strain_of_two_layers_has_two_sides)
         rb_case_result r, near[2];
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&layers[k], NULL, 0.0, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 1, &name, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 1, &name, &all, &message));
         const rb_case_derivative *d = &all.of[0];
         assert_int_equal(d->status, RB_OK);
         const double h = 1e-6 * d->value, at = r.solution.max_strain, size = at / d->value;
@@ -316,7 +316,7 @@ TEST(a_force_without_friction_tells_no_creepage)
     OWNED(rb_case_result) r;
     held_case *c = solved(&w, NULL, 0.0, &r);
 
-    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &message));
     assert_int_equal(of(&all, "load")->status, RB_OK);
     assert_int_equal(of(&all, "mu")->status, RB_EINVAL);
     assert_non_null(strstr(of(&all, "mu")->why.text, "does not tell the creepage"));
@@ -336,7 +336,7 @@ static double carter_error(const char *elements, const char *mesh)
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&w, "creep-ratio", -s, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &message));
         const rb_case_derivative *d = of(&all, "creep-ratio");
         sum += pow(-value_of(&d->d.value[0], "force_ratio") - 2.0 * (1.0 - s), 2.0);
     }
@@ -366,7 +366,7 @@ TEST(equal_elements_move_with_their_zone)
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&moving[k], NULL, 0.0, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
         assert_int_equal(all.elements, RB_SENSITIVITY_ZONE);
         assert_true(compare_input(&moving[k], of(&all, "load"), &r.solution));
         assert_true(compare_input(&moving[k], of(&all, "young"), &r.solution));
@@ -386,7 +386,7 @@ TEST(fitted_elements_move_with_the_edges)
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&w, NULL, 0.0, &r);
         const rb_rolling_solution *s = &r.solution;
-        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
         assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_ZONE);
         const rb_rolling_solution *by_P = &of(&all, "load")->d.value[0],
                                   *by_R = &of(&all, "radius")->d.value[0];
@@ -413,7 +413,7 @@ TEST(stick_grows_between_changes_of_zones)
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&w, NULL, 0.0, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
         CHECK_REL(of(&all, "creep")->d.value[0].stick_length, -200.0 / 0.3, bound, "by xi");
         CHECK_REL(of(&all, "mu")->d.value[0].stick_length, 2.0 * 0.0015 * 100.0 / 0.09, bound,
                   "by mu");
@@ -424,7 +424,7 @@ TEST(stick_grows_between_changes_of_zones)
     OWNED(rb_case_result) r;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
     CHECK_REL(of(&all, "force-ratio")->d.value[0].stick_length, -1.0 / sqrt(0.5), 0.02, "by Q");
     CHECK_REL(of(&all, "half-width")->d.value[0].stick_length, 2.0 * sqrt(0.5), 0.02, "by a");
     CHECK_ABS(of(&all, "mu")->d.value[0].stick_length, 0.0, 1e-6, "by mu");
@@ -439,7 +439,7 @@ TEST(peaks_stay_with_their_elements)
     OWNED(rb_case_result) r;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &message));
     const rb_case_derivative *by_P = of(&all, "load"), *by_E = of(&all, "young");
     CHECK_REL(by_P->value * by_P->d.value[0].max_pressure +
                   by_E->value * by_E->d.value[0].max_pressure,
@@ -455,7 +455,7 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
     rb_case_result r, left, right;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 3, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 3, names, &all, &message));
     for (int k = 0; k < 3; k++) {
         const rb_case_derivative *d = of(&all, names[k]);
         const double step = 0.03 * d->value;
@@ -480,7 +480,7 @@ TEST(aligned_slopes_are_those_of_aligned_solves)
     OWNED(rb_case_result) r, left, right;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &message));
     rb_case_free(solved(&w, "creep", 0.9999e-3, &left));
     rb_case_free(solved(&w, "creep", 1.0001e-3, &right));
     CHECK_REL(of(&all, "creep")->d.value[0].tangential_load,
@@ -513,17 +513,17 @@ static void look_at_both_sides(const words *w, int has_matrix)
     static const char *const names[] = {"creep"};
     c = solved(w, "creep", low, &r);
     assert_int_equal(r.model.bodies.F != NULL, has_matrix);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &message));
     assert_int_equal(all.degenerate, 1);
     const rb_case_derivative *d = of(&all, "creep");
     assert_int_equal(d->d.sides, 2);
     held_case *a = solved(w, "creep", low * (1.0 - 1e-6), &left),
               *b = solved(w, "creep", low * (1.0 + 1e-6), &right);
-    CHECK_OK(rb_case_differentiate(a, &left.model, 1, names, &one, &heard));
+    CHECK_OK(rb_case_differentiate(a, &left.model, 1, names, &one, &message));
     CHECK_REL(d->d.value[0].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
               "left");
     rb_case_derivatives_free(&one);
-    CHECK_OK(rb_case_differentiate(b, &right.model, 1, names, &one, &heard));
+    CHECK_OK(rb_case_differentiate(b, &right.model, 1, names, &one, &message));
     CHECK_REL(d->d.value[1].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
               "right");
     assert_true(fabs(d->d.value[1].tangential_load - d->d.value[0].tangential_load) >
@@ -549,7 +549,7 @@ TEST(ends_of_ranges)
     OWNED(rb_case_result) r, some;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
     const rb_case_derivative *d = of(&all, "interlayer-tangential");
     assert_int_equal(d->d.sides, 2);
     assert_false(d->d.has[0]);
@@ -569,7 +569,7 @@ TEST(what_heat_takes_away)
     rb_case_result r, some[2];
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
     CHECK_OK(of(&all, "mu-heat")->status);
     const rb_case_derivative *d = of(&all, "mu");
     CHECK_OK(d->status);
@@ -601,7 +601,7 @@ TEST(friction_begins_where_nothing_slides)
         OWNED(rb_case_result) r, some;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&cases[k], "mu", 0.0, &r);
-        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
         const rb_case_derivative *d = of(&all, "mu");
         assert_int_equal(d->status, RB_OK);
         assert_false(d->d.has[0]);
@@ -624,7 +624,7 @@ TEST(units_of_derivatives)
     rb_case_result r;
     rb_case_derivatives all;
     rb_case *c = solved(&regimes[0], NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &message));
     assert_int_equal(all.n, 1);
     const double p0 = all.of[0].d.value[0].max_pressure;
     rb_case_derivatives_convert(&all, RB_UNITS_SI);
@@ -638,7 +638,7 @@ TEST(units_of_derivatives)
     static const words metres = {
         {"units si support halfplane load 5e5 " ROLLING "creep 1e-2 contact-elements 20"}};
     c = solved(&metres, NULL, 0.0, &r);
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &message));
     CHECK_REL(all.of[0].value, 500.0, 1e-14, "load in N/mm");
     CHECK_REL(all.of[0].d.value[0].tangential_load, -0.3, 1e-10, "Q by P");
     rb_case_derivatives_free(&all);
@@ -649,7 +649,7 @@ TEST(units_of_derivatives)
 static rb_status factorise(void *model)
 {
     rb_sensitivity *s;
-    const rb_status status = rb_sensitivity_create(model, 1, &s, &heard);
+    const rb_status status = rb_sensitivity_create(model, 1, &s, &message);
     rb_sensitivity_free(s);
     return status;
 }
@@ -670,9 +670,9 @@ TEST(steps_are_refused)
     rb_sensitivity *s;
     held_case *c = solved(&w, NULL, 0.0, &r);
     (void)c;
-    CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &message), RB_EINVAL);
     assert_null(s);
-    assert_non_null(strstr(heard.text, "this case has several"));
+    assert_non_null(strstr(message.text, "this case has several"));
 }
 
 RUN_TESTS(NULL, NULL)

@@ -131,11 +131,11 @@ TEST(the_number_of_steps_stays)
         difference_run run = {.states = {0}};
         held_case *c = case_of(RB_CASE_SINGLE, &cases[given], NULL, 0.0);
         const rb_resolved_case *resolved = rb_case_resolved(c);
-        CHECK_OK(difference_history(resolved, &resolved->rc, &run, &heard));
+        CHECK_OK(difference_history(resolved, &resolved->rc, &run, &message));
         CHECK_OK(rb_case_slopes_choose(c, &rb_rolling_history_columns,
                                        "tangential_load:half-width,creepage:mu", 9, &of[given],
-                                       &heard));
-        CHECK_OK(rb_case_slopes_of_steps(c, &run.states, &of[given], NULL, NULL, &heard));
+                                       &message));
+        CHECK_OK(rb_case_slopes_of_steps(c, &run.states, &of[given], NULL, NULL, &message));
         difference_run_free(&run);
     }
     assert_int_equal(of[0].rows, 16);
@@ -183,8 +183,8 @@ TEST(tolerances_need_derivatives)
     const rb_case_derivatives all = {.n = 1, .of = &other};
     rb_rolling_solution deviation;
 
-    CHECK_STATUS(rb_case_propagate(&t, &all, &deviation, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "tolerance: radius: no derivatives");
+    CHECK_STATUS(rb_case_propagate(&t, &all, &deviation, &message), RB_EINVAL);
+    assert_string_equal(message.text, "tolerance: radius: no derivatives");
 }
 
 /* A boundary that is compressed: variants are so closely that steps do not show it. */
@@ -306,8 +306,8 @@ TEST(the_pressure_of_similar_bodies_does_not_depend_on_friction)
     rb_case_derivatives all;
     rb_case_result r;
 
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &message));
     const rb_rolling_solution *d = &all.of[0].d.value[0];
     for (int i = 0; i < d->n; i++)
         CHECK_ABS(d->p[i], 0.0, 0.0, "p of element %d", i);
@@ -345,8 +345,8 @@ TEST(what_free_rolling_has_not_other_results_have)
     double grown = 0.0;
     int unknown = 0;
 
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
-    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
     for (int j = 0; j < all.n; j++)
         for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
             const rb_rolling_solution *d = &all.of[j].d.value[0];
@@ -424,8 +424,8 @@ TEST(the_strain_without_a_layer_follows_the_half_width)
     rb_case_result r;
 
     (void)state;
-    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
-    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &heard));
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &message));
     const rb_rolling_solution *d = &all.of[0].d.value[0];
     /* similar bodies: 1/R is twice that of A */
     CHECK_REL(d->max_strain,
@@ -442,7 +442,7 @@ TEST(refusals_of_histories)
     held_case *c = case_of(RB_CASE_SINGLE, &by_approach, NULL, 0.0);
     differences d;
 
-    CHECK_SAYS(compare_steps(c, 0, 1, &d, &heard), RB_EINVAL, "give a load");
+    CHECK_SAYS(compare_steps(c, 0, 1, &d, &message), RB_EINVAL, "give a load");
 }
 
 /* Elements that move with the contact would take the midpoint to either side of the row. */
@@ -460,7 +460,7 @@ TEST(rows_of_tables_under_midpoints)
             rb_sensitivity *s = NULL;
             differences d;
             held_case *c = case_of(RB_CASE_SINGLE, &both[k], NULL, 0.0);
-            CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+            CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
             const double *end = r.model.mesh.ends + SLIPS, h = end[1] - end[0];
             FILE *file = fdopen(mkstemp(table), "w");
             assert_non_null(file);
@@ -468,15 +468,15 @@ TEST(rows_of_tables_under_midpoints)
                     0.5 * (end[0] + end[1]) + (beside ? 0.3 * h : 0.0));
             assert_int_equal(fclose(file), 0);
             rb_case_result_free(&r);
-            CHECK_OK(rb_case_set(c, "friction-law", table, RB_GIVEN_ARGUMENT, &heard));
-            CHECK_OK(rb_case_resolve(c, &heard));
+            CHECK_OK(rb_case_set(c, "friction-law", table, RB_GIVEN_ARGUMENT, &message));
+            CHECK_OK(rb_case_resolve(c, &message));
             if (k == 1) {
-                CHECK_STATUS(compare_steps(c, 0, 1000, &d, &heard), beside ? RB_OK : RB_EINVAL);
-                assert_true(beside || strstr(heard.text, "under the midpoint of element 5"));
+                CHECK_STATUS(compare_steps(c, 0, 1000, &d, &message), beside ? RB_OK : RB_EINVAL);
+                assert_true(beside || strstr(message.text, "under the midpoint of element 5"));
             } else {
-                CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+                CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
                 assert_int_equal(r.model.state.zone[SLIPS], RB_ZONE_SLIP_NEGATIVE);
-                CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &heard));
+                CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &message));
                 assert_int_equal(rb_sensitivity_motion(s),
                                  beside ? RB_SENSITIVITY_ZONE : RB_SENSITIVITY_FIXED);
                 rb_sensitivity_free(s);
@@ -500,14 +500,14 @@ TEST(inputs_that_leave_the_bodies_have_a_shorter_step)
     rb_case_slopes slopes;
     held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
 
-    CHECK_OK(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &heard));
+    CHECK_OK(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &message));
     CHECK_OK(rb_case_slopes_choose(c, &rb_rolling_history_columns, "creepage:speed", 1, &slopes,
-                                   &heard));
-    CHECK_OK(rb_case_slopes_of_steps(c, &at.states, &slopes, NULL, NULL, &heard));
+                                   &message));
+    CHECK_OK(rb_case_slopes_of_steps(c, &at.states, &slopes, NULL, NULL, &message));
     for (int k = 0; k < PARTS; k++) {
         held_case *other = case_of(RB_CASE_SINGLE, &w, "speed", 3000.0 + (k ? by : -by));
         CHECK_OK(difference_history(rb_case_resolved(other), &rb_case_resolved(other)->rc,
-                                    &beside[k], &heard));
+                                    &beside[k], &message));
     }
     const double want =
         (beside[1].history.creepage[STEP] - beside[0].history.creepage[STEP]) / (2.0 * by);
@@ -533,10 +533,10 @@ TEST(samples_of_histories_scatter_as_tolerances)
     double quantile[N], unit = 0.0;
 
     (void)state;
-    CHECK_STATUS(rb_case_read_tolerances(c, "load=0.3%,mu=0.002", &t, &heard), RB_OK);
-    CHECK_STATUS(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &heard),
+    CHECK_STATUS(rb_case_read_tolerances(c, "load=0.3%,mu=0.002", &t, &message), RB_OK);
+    CHECK_STATUS(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &message),
                  RB_OK);
-    CHECK_STATUS(rb_case_slopes_of_steps(c, &at.states, NULL, &t, &at.history, &heard), RB_OK);
+    CHECK_STATUS(rb_case_slopes_of_steps(c, &at.states, NULL, &t, &at.history, &message), RB_OK);
     for (int k = 0; k < N; k++) {
         quantile[k] = gsl_cdf_ugaussian_Pinv((k + 0.5) / N);
         unit += quantile[k] * quantile[k] / N;
@@ -546,11 +546,12 @@ TEST(samples_of_histories_scatter_as_tolerances)
         for (int bit = 0; bit < BITS; bit++)
             reversed |= (k >> bit & 1) << (BITS - 1 - bit);
         held_case *sample = case_of(RB_CASE_SINGLE, &w, "mu", mu + 0.002 * quantile[reversed]);
-        CHECK_STATUS(rb_case_set_number(sample, "load", load * (1.0 + 0.003 * quantile[k]), &heard),
-                     RB_OK);
-        CHECK_STATUS(rb_case_resolve(sample, &heard), RB_OK);
+        CHECK_STATUS(
+            rb_case_set_number(sample, "load", load * (1.0 + 0.003 * quantile[k]), &message),
+            RB_OK);
+        CHECK_STATUS(rb_case_resolve(sample, &message), RB_OK);
         CHECK_STATUS(difference_history(rb_case_resolved(sample), &rb_case_resolved(sample)->rc,
-                                        &one[k], &heard),
+                                        &one[k], &message),
                      RB_OK);
         assert_int_equal(one[k].history.n, at.history.n);
     }

@@ -53,8 +53,8 @@ static double slope_of(const char *result, const words *w, const char *name, dou
                        const char *input, int smooth)
 {
     differentiated d;
-    if (differentiate(w, name, value, input, smooth, &d, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (differentiate(w, name, value, input, smooth, &d, &message) != RB_OK)
+        fail_msg("%s", message.text);
     const double slope =
         rb_rolling_number(rb_rolling_find_result(&rb_rolling_solution_scalars, result),
                           &d.by->d.value[!d.by->d.has[0]]);
@@ -89,8 +89,8 @@ static void carter_errors(const char *elements, const char *mesh, int smooth, do
         static const char *const inputs[] = {"mu", "creep"};
         differentiated d;
         const rb_status found =
-            differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &heard);
-        if (found != RB_OK && strstr(heard.text, "too short") && ++missed * 8 < PLACES) {
+            differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &message);
+        if (found != RB_OK && strstr(message.text, "too short") && ++missed * 8 < PLACES) {
             differentiated_free(&d);
             continue; /* of few elements none stick */
         }
@@ -174,9 +174,9 @@ TEST(deviations_are_those_of_the_continuum)
         rb_case_result r;
         rb_case_tolerances t;
         rb_rolling_solution deviation;
-        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
-        CHECK_OK(rb_case_read_tolerances(c, "mu=0.01", &t, &heard));
-        CHECK_OK(rb_case_deviations(c, &r.model, &t, &deviation, &heard));
+        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
+        CHECK_OK(rb_case_read_tolerances(c, "mu=0.01", &t, &message));
+        CHECK_OK(rb_case_deviations(c, &r.model, &t, &deviation, &message));
         CHECK_REL(deviation.tangential_shift, 0.01 * fabs(want), bound[k], "%s elements",
                   elements[k]);
         rb_case_result_free(&r);
@@ -202,9 +202,9 @@ TEST(deviations_without_smooth_derivatives)
         rb_message why;
         CHECK_STATUS(differentiate(&w, "tol", 1e-9, rows[k].input, 1, &d, &why), RB_EINVAL);
         differentiated_free(&d);
-        CHECK_OK(differentiate(&w, "tol", 1e-9, rows[k].input, 0, &d, &heard));
-        CHECK_OK(rb_case_read_tolerances(d.c, rows[k].of, &t, &heard));
-        CHECK_OK(rb_case_deviations(d.c, &d.r.model, &t, &deviation, &heard));
+        CHECK_OK(differentiate(&w, "tol", 1e-9, rows[k].input, 0, &d, &message));
+        CHECK_OK(rb_case_read_tolerances(d.c, rows[k].of, &t, &message));
+        CHECK_OK(rb_case_deviations(d.c, &d.r.model, &t, &deviation, &message));
         CHECK_REL(deviation.tangential_load,
                   0.01 * d.by->value * fabs(d.by->d.value[!d.by->d.has[0]].tangential_load), 1e-9,
                   "%s", rows[k].input);
@@ -247,17 +247,17 @@ TEST(jumps_are_those_of_solutions)
             const double value = tests[t].value[k];
             const int by_force = strcmp(input, "force-ratio") == 0;
             differentiated smooth, exact, before, behind;
-            CHECK_OK(differentiate(w, input, value, input, 1, &smooth, &heard));
-            CHECK_OK(differentiate(w, input, value, input, 0, &exact, &heard));
+            CHECK_OK(differentiate(w, input, value, input, 1, &smooth, &message));
+            CHECK_OK(differentiate(w, input, value, input, 0, &exact, &message));
             const double *at = smooth.by->d.stays;
             assert_true(at[0] < 0.0 && at[1] > 0.0);
             const int next = at[1] < -at[0];
             const double part = 0.5 - fabs(at[next]) / (at[1] - at[0]);
             sides[next]++;
             CHECK_OK(
-                differentiate(w, input, value + 0.999999 * at[next], input, 0, &before, &heard));
+                differentiate(w, input, value + 0.999999 * at[next], input, 0, &before, &message));
             CHECK_OK(
-                differentiate(w, input, value + 1.000001 * at[next], input, 0, &behind, &heard));
+                differentiate(w, input, value + 1.000001 * at[next], input, 0, &behind, &message));
             assert_int_equal(zones_that_differ(&before.r.solution, &smooth.r.solution), 0);
             assert_int_equal(zones_that_differ(&behind.r.solution, &smooth.r.solution), 1);
             const rb_rolling_solution *a = &smooth.by->d.value[0], *b = &exact.by->d.value[0],
@@ -314,7 +314,7 @@ TEST(smooth_derivatives_are_continuous)
         double value = tests[t].value, step = 0.0, slope[2][2];
         differentiated d;
         for (double to = INFINITY; fabs(to) > 0.1 * step;) { /* to first order each time */
-            CHECK_OK(differentiate(w, input, value, input, 1, &d, &heard));
+            CHECK_OK(differentiate(w, input, value, input, 1, &d, &message));
             const double *at = d.by->d.stays;
             to = at[at[1] < -at[0]];
             value += 0.999 * to;
@@ -344,7 +344,7 @@ TEST(free_rolling_is_smooth_too)
     for (int k = 0; k < PLACES; k++)
         for (int smooth = 0; smooth < 2; smooth++) {
             differentiated d;
-            CHECK_OK(differentiate(&w, "mu", 0.06 + k * step, "mu", smooth, &d, &heard));
+            CHECK_OK(differentiate(&w, "mu", 0.06 + k * step, "mu", smooth, &d, &message));
             slope[smooth][k] = d.by->d.value[0].free_creepage;
             xi[k > 0] = d.r.solution.free_creepage;
             differentiated_free(&d);
@@ -366,7 +366,7 @@ TEST(a_zone_at_an_edge_does_not_count)
     const words w = {{ROLLING "mesh uniform zone 1.2 contact-elements 60 similar yes"}};
     differentiated d;
     double value = -1.13e-3;
-    CHECK_OK(differentiate(&w, "creep", value, "creep", 1, &d, &heard));
+    CHECK_OK(differentiate(&w, "creep", value, "creep", 1, &d, &message));
     value += 0.5 * (d.by->d.stays[0] + d.by->d.stays[1]);
     const int *zone = d.r.solution.zone;
     int last = d.r.solution.n - 1;
@@ -389,10 +389,10 @@ TEST(transforms_have_the_same_smooth_derivatives)
     differentiated fast;
     OWNED(rb_rolling_model) dense;
     OWNED(rb_case_derivatives) all;
-    CHECK_OK(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &heard));
+    CHECK_OK(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &message));
     assert_null(fast.r.model.bodies.F);
-    CHECK_OK(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &heard));
-    CHECK_OK(rb_case_differentiate_smoothly(fast.c, &dense, 3, inputs, &all, &heard));
+    CHECK_OK(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &message));
+    CHECK_OK(rb_case_differentiate_smoothly(fast.c, &dense, 3, inputs, &all, &message));
     for (int k = 0; k < 3; k++) {
         CHECK_REL(fast.by[k].d.value[0].tangential_load, all.of[k].d.value[0].tangential_load, 1e-7,
                   "Q by %s", all.of[k].name);
@@ -428,10 +428,10 @@ TEST(what_has_no_smooth_derivatives)
     for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
         differentiated d;
         CHECK_STATUS(
-            differentiate(&(const words){{tests[t].w}}, NULL, 0.0, tests[t].input, 1, &d, &heard),
+            differentiate(&(const words){{tests[t].w}}, NULL, 0.0, tests[t].input, 1, &d, &message),
             RB_EINVAL);
-        if (!strstr(heard.text, tests[t].reason))
-            fail_msg("%s: %s", tests[t].reason, heard.text);
+        if (!strstr(message.text, tests[t].reason))
+            fail_msg("%s: %s", tests[t].reason, message.text);
         differentiated_free(&d);
     }
 }
@@ -440,11 +440,11 @@ TEST(between_two_zones_there_are_none)
 {
     const words w = {{FIXED "similar yes"}};
     differentiated d;
-    CHECK_OK(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &heard));
+    CHECK_OK(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &message));
     const double there = -1e-3 + d.by->d.stays[1];
     differentiated_free(&d);
-    CHECK_STATUS(differentiate(&w, "creep", there, "creep", 1, &d, &heard), RB_EINVAL);
-    assert_non_null(strstr(heard.text, "1 element stands exactly between two zones"));
+    CHECK_STATUS(differentiate(&w, "creep", there, "creep", 1, &d, &message), RB_EINVAL);
+    assert_non_null(strstr(message.text, "1 element stands exactly between two zones"));
     differentiated_free(&d);
 }
 
@@ -453,7 +453,7 @@ TEST(rounding_is_no_derivative)
 {
     const words w = {{ALIGNED "contact-elements 200"}};
     differentiated d;
-    CHECK_OK(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &heard));
+    CHECK_OK(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &message));
     assert_true(d.by->d.value[0].free_creepage == 0.0);
     differentiated_free(&d);
 }

@@ -260,7 +260,7 @@ static void ellipse(const rb_rolling_case *rc, rb_rolling_model *model)
         p[i] = 500.0 * sqrt(fmax(0.0, 1.0 - t * t));
         q[i] = 0.3 * p[i];
     }
-    CHECK_OK(rb_rolling_model_of_nodes(rc, NODES, x, p, q, model, &s, &heard));
+    CHECK_OK(rb_rolling_model_of_nodes(rc, NODES, x, p, q, model, &s, &message));
 }
 
 /* 500 MPa on .6 mm, q = .3 p, on three layers: by 400 Gauss points (bodies.md). */
@@ -288,7 +288,7 @@ TEST(points_and_bonds_of_three_layers)
         put_on(&rc.a, &hard);
         ellipse(&rc, &model);
         if (!rigid) {
-            CHECK_OK(rb_rolling_stress_at(&model, 4, xy, at, &heard));
+            CHECK_OK(rb_rolling_stress_at(&model, 4, xy, at, &message));
             for (int k = 0; k < 4; k++) {
                 const double got[] = {at[k].sxx, at[k].syy, at[k].sxy};
                 for (int c = 0; c < 3; c++)
@@ -296,7 +296,7 @@ TEST(points_and_bonds_of_three_layers)
             }
             CHECK_ABS(at[1].szz, .4 * (at[1].sxx + at[1].syy), 1e-10, "szz of the second layer");
         }
-        CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &heard));
+        CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &message));
         for (int j = 0; j < 3; j++) {
             const rb_rolling_extremum got[] = {most.bond[j].peel, most.bond[j].shear,
                                                most.bond[j].tension_above};
@@ -337,8 +337,8 @@ TEST(every_bond_of_many_layers)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
     OWNED(rb_rolling_stress_maxima) most = {.bonds = 0}, again = {.bonds = 0};
-    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &heard));
-    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &heard));
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &message));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &message));
     assert_int_equal(most.bonds, LAYERS);
     for (size_t k = 0; k < sizeof hertz / sizeof *hertz; k++) {
         const rb_rolling_extremum *shear = &most.bond[hertz[k].bond - 1].shear;
@@ -358,7 +358,7 @@ TEST(every_bond_of_many_layers)
         if (!isnan(rb_rolling_maximum(&again, k)->x))
             rb_rolling_maximum(&again, k)->value = NAN;
     }
-    CHECK_OK(rb_rolling_stress_maxima_at(&model, &again, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_at(&model, &again, &message));
     for (int k = 0; rb_rolling_maximum(&most, k); k++)
         CHECK_ABS(rb_rolling_maximum(&again, k)->value, rb_rolling_maximum(&most, k)->value,
                   1e-9 * s.max_pressure, "maximum %d", k);
@@ -403,8 +403,8 @@ TEST(stress_of_cut_layers)
         for (int k = 0; k < (rigid ? 5 : 7); k++) {
             const double xy[] = {-.4, depth[k], .2, depth[k], 2.5, depth[k]};
             rb_rolling_stress x[3], y[3];
-            CHECK_OK(rb_rolling_stress_at(&a, 3, xy, x, &heard));
-            CHECK_OK(rb_rolling_stress_at(&b, 3, xy, y, &heard));
+            CHECK_OK(rb_rolling_stress_at(&a, 3, xy, x, &message));
+            CHECK_OK(rb_rolling_stress_at(&b, 3, xy, y, &message));
             for (int i = 0; i < 3; i++) {
                 CHECK_ABS(y[i].sxx, x[i].sxx, 1e-8, "sxx at (%g, %g)", xy[2 * i], depth[k]);
                 CHECK_ABS(y[i].syy, x[i].syy, 1e-8, "syy at (%g, %g)", xy[2 * i], depth[k]);
@@ -421,7 +421,7 @@ TEST(stress_of_cut_layers)
         const double xy[] = {.25, bond, .25, nextafter(bond, 1.0)};
         rb_rolling_stress at[2];
         double strain[2];
-        CHECK_OK(rb_rolling_stress_at(&model, 2, xy, at, &heard));
+        CHECK_OK(rb_rolling_stress_at(&model, 2, xy, at, &message));
         for (int i = 0; i < 2; i++) {
             const double v = hard_poisson[j + i];
             strain[i] = ((1.0 - v) * at[i].sxx - v * at[i].syy) * (1.0 + v) / hard_young[j + i];
@@ -453,13 +453,14 @@ TEST(memory_and_bad_stacks)
         assert_null(field);
     assert_true(k > 3);
     CHECK_STATUS(
-        rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){0.0, -1e-9}}, s, &heard),
+        rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){0.0, -1e-9}}, s, &message),
         RB_EINVAL);
     for (k = 0; REFUSED_FROM(k, rb_bem_layer_field_add(field, (rb_bem_points){2, xy}, s, NULL));
          k++)
         ;
-    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){1e5, 0.1}}, s, &heard),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){1e5, 0.1}}, s, &message),
+        RB_EINVAL);
     rb_bem_layer_field_free(field);
     for (k = 0; k < 3; k++) {
         rb_bem_surface bad = body;
@@ -468,7 +469,7 @@ TEST(memory_and_bad_stacks)
         thickness[2] = k == 1 ? 0.0 : .3;
         young[2] = k == 2 ? -1.0 : 70e3;
         bad.stack = &other;
-        CHECK_STATUS(rb_bem_layer_field_create(&bad, &load, &field, &heard), RB_EINVAL);
+        CHECK_STATUS(rb_bem_layer_field_create(&bad, &load, &field, &message), RB_EINVAL);
         assert_null(field);
     }
 }

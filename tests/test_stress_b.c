@@ -65,14 +65,14 @@ static void exchange(int k)
     OWNED(rb_rolling_solution) s = {0}, t = {0};
     if (rb_rolling_case_check(&rc, NULL) != RB_OK || rb_rolling_mirror_check(&rc, NULL) != RB_OK)
         return;
-    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &heard));
-    CHECK_OK(rb_rolling_solve_model(&other, &swapped, &t, &heard));
+    CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &message));
+    CHECK_OK(rb_rolling_solve_model(&other, &swapped, &t, &message));
     /* elements of a wheel are chords of A's circle: x is not the same to the last digit */
     const double share = is_flat(&rc) ? 1e-8 : 2e-3, p0 = s.max_pressure;
     CHECK_REL(t.max_pressure, p0, share, "case %d: p0", k);
     CHECK_ABS(t.tangential_load, -s.tangential_load, share * s.normal_load, "case %d: Q", k);
     held_mirror *b = NULL;
-    CHECK_OK(rb_rolling_mirror_create(&model, &b, &heard));
+    CHECK_OK(rb_rolling_mirror_create(&model, &b, &message));
     double xy[2 * POINTS];
     rb_rolling_stress of_b[POINTS], of_a[POINTS];
     int n = 0;
@@ -82,8 +82,8 @@ static void exchange(int k)
             xy[2 * n++ + 1] = at[i][1] + rb_rolling_surface(&other, at[i][0]);
         }
     if (n > 0) {
-        CHECK_OK(rb_rolling_stress_at(&b->model, n, xy, of_b, &heard));
-        CHECK_OK(rb_rolling_stress_at(&swapped, n, xy, of_a, &heard));
+        CHECK_OK(rb_rolling_stress_at(&b->model, n, xy, of_b, &message));
+        CHECK_OK(rb_rolling_stress_at(&swapped, n, xy, of_a, &message));
     }
     rb_rolling_mirror_stress(n, of_b, NULL);
     for (int i = 0; i < n; i++) {
@@ -96,8 +96,8 @@ static void exchange(int k)
     if (k % 5 == 0) { /* the search takes longer */
         OWNED(rb_rolling_stress_maxima) most = {.bonds = 0};
         OWNED(rb_rolling_stress_maxima) most_a = {.bonds = 0};
-        CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &heard));
-        CHECK_OK(rb_rolling_stress_maxima_find(&swapped, 0.0, &most_a, &heard));
+        CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &message));
+        CHECK_OK(rb_rolling_stress_maxima_find(&swapped, 0.0, &most_a, &message));
         for (int i = 0; rb_rolling_maximum(&most, i); i++) {
             const double of_b_now = rb_rolling_maximum(&most, i)->value,
                          of_a_then = rb_rolling_maximum(&most_a, i)->value;
@@ -134,11 +134,11 @@ TEST(partial_slip_is_no_mirror_image)
     OWNED(rb_rolling_model) model = solved_model(&rc);
     held_mirror *b = NULL;
     const double p0 = 210000.0 / 0.91 / 4000.0;
-    CHECK_OK(rb_rolling_mirror_create(&model, &b, &heard));
+    CHECK_OK(rb_rolling_mirror_create(&model, &b, &message));
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         rb_rolling_stress s, a;
-        CHECK_OK(rb_rolling_stress_at(&b->model, 1, rows[k], &s, &heard));
-        CHECK_OK(rb_rolling_stress_at(&model, 1, rows[k], &a, &heard));
+        CHECK_OK(rb_rolling_stress_at(&b->model, 1, rows[k], &s, &message));
+        CHECK_OK(rb_rolling_stress_at(&model, 1, rows[k], &a, &message));
         rb_rolling_mirror_stress(1, &s, NULL);
         CHECK_ABS(s.y, -rows[k][1], 0.0, "below");
         CHECK_ABS(s.sxx / p0, rows[k][2], 1e-4, "sxx at %g", rows[k][0]);
@@ -149,10 +149,10 @@ TEST(partial_slip_is_no_mirror_image)
     }
     /* 2 mu p0 (2 sqrt s - s) at the trailing edge of B, 2 mu p0 s at the leading one of A */
     OWNED(rb_rolling_stress_maxima) most = {.bonds = 0};
-    CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_of_b(&model, 0.0, &most, &message));
     CHECK_REL(most.tension.value / p0, 0.6 * (2.0 * sqrt(0.5) - 0.5), 1e-3, "tension in B");
     CHECK_ABS(most.tension.x, -1.0, 2e-3, "at the trailing edge");
-    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &most, &message));
     CHECK_REL(most.tension.value / p0, 0.6 * 0.5, 5e-3, "tension in A");
     CHECK_ABS(most.tension.x, 1.0, 2e-3, "at the leading edge");
 }
@@ -213,9 +213,9 @@ TEST(shakedown_of_b_is_decided_at_its_surface)
             held_mirror *b = NULL;
             rb_rolling_shakedown of_a, of_b;
             const double p0 = 210000.0 / 0.91 / 4000.0;
-            CHECK_OK(rb_rolling_mirror_create(&model, &b, &heard));
-            CHECK_OK(rb_rolling_shakedown_find(&model, &of_a, &heard));
-            CHECK_OK(rb_rolling_shakedown_find(&b->model, &of_b, &heard));
+            CHECK_OK(rb_rolling_mirror_create(&model, &b, &message));
+            CHECK_OK(rb_rolling_shakedown_find(&model, &of_a, &message));
+            CHECK_OK(rb_rolling_shakedown_find(&b->model, &of_b, &message));
             CHECK_REL(p0 / of_a.shear_yield, rows[k].a, 5e-4, "A, mu = %g", rows[k].mu);
             CHECK_ABS(of_a.y, rows[k].a_depth, 5e-3, "A, depth");
             CHECK_REL(p0 / of_b.shear_yield, rows[k].b, 6e-4, "B, mu = %g", rows[k].mu);

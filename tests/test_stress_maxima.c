@@ -330,10 +330,10 @@ static void compare(int k)
     draw(&c, k);
     rb_rolling_case rc = rolling_case("%s", c.line);
     rb_rolling_model model;
-    if (rb_rolling_model_create(&rc, &model, &heard) != RB_OK)
+    if (rb_rolling_model_create(&rc, &model, &message) != RB_OK)
         return; /* options that do not go together */
     OWNED(rb_rolling_stress_maxima) m = {.bonds = 0};
-    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &heard));
+    CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, &message));
     int n = scan(&model, xy, MOST), kept = 0;
     CHECK_OK(rb_rolling_inside(&model, n, xy, inside));
     for (int i = 0; i < n; i++)
@@ -341,18 +341,18 @@ static void compare(int k)
             xy[2 * kept] = xy[2 * i];
             xy[2 * kept++ + 1] = xy[2 * i + 1];
         }
-    CHECK_OK(rb_rolling_stress_at(&model, kept, xy, at, &heard));
+    CHECK_OK(rb_rolling_stress_at(&model, kept, xy, at, &message));
     /* behind them are those of the bond */
     for (int j = 0; j < rb_rolling_maxima_scalars.n / 3; j++) {
         int best = 0;
         for (int i = 0; i < kept; i++)
             best = measured(&at[i], j) > measured(&at[best], j) ? i : best;
-        const double found = maximum_of(&m, j)->value, seen = measured(&at[best], j);
+        const double found = maximum_of(&m, j)->value, sampled = measured(&at[best], j);
         const double p0 = rb_rolling_peak_pressure(&model);
-        if (!(found >= seen - 1e-3 * fabs(seen) - 1e-6 * p0))
+        if (!(found >= sampled - 1e-3 * fabs(sampled) - 1e-6 * p0))
             fail_msg("case %d, %s: %s = %g at (%g, %g), but %g at (%g, %g); p0 = %g", k, c.line,
                      rb_rolling_maxima_scalars.row[3 * j].name, found, maximum_of(&m, j)->x,
-                     maximum_of(&m, j)->y, seen, at[best].x, at[best].y, p0);
+                     maximum_of(&m, j)->y, sampled, at[best].x, at[best].y, p0);
     }
     for (int i = 0; i < kept && rc.a.layer > 0.0; i++) {
         const double least = 1e-6 * rb_rolling_peak_pressure(&model);

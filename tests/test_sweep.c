@@ -13,7 +13,7 @@
 enum { CASES = 23 };
 
 typedef struct {
-    int first, seen, stop_at, kill_at;
+    int first, counted, stop_at, kill_at;
     int *deaths; /* in memory that all processes share; NULL: die every time */
     rb_rolling_solution row[CASES];
 } record;
@@ -32,9 +32,9 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
 static int see(int k, const rb_rolling_row *row, void *context)
 {
     record *r = context;
-    assert_int_equal(k, r->first + r->seen); /* in order */
-    r->row[r->seen++] = row->solution;
-    return r->seen == r->stop_at;
+    assert_int_equal(k, r->first + r->counted); /* in order */
+    r->row[r->counted++] = row->solution;
+    return r->counted == r->stop_at;
 }
 
 static rb_status run(record *r, int workers, rb_message *why)
@@ -52,7 +52,7 @@ TEST(rows_are_those_of_single_solutions)
 {
     record r = {.first = 2, .kill_at = -1};
     CHECK_OK(run(&r, 3, NULL));
-    assert_int_equal(r.seen, CASES);
+    assert_int_equal(r.counted, CASES);
     for (int i = 0; i < CASES; i++) {
         rb_rolling_case rc;
         OWNED(rb_rolling_solution) s;
@@ -93,11 +93,11 @@ TEST(a_process_that_dies_loses_one_case)
 TEST(stops_when_told)
 {
     record r = {.stop_at = 4, .kill_at = -1};
-    CHECK_STATUS(run(&r, 0, &heard), RB_INTERRUPTED);
-    assert_int_equal(r.seen, 4);
-    assert_non_null(strstr(heard.text, "after case 4"));
-    CHECK_STATUS(run(&r, -1, &heard), RB_EINVAL);
-    CHECK_STATUS(run(&r, 100000, &heard), RB_EINVAL);
+    CHECK_STATUS(run(&r, 0, &message), RB_INTERRUPTED);
+    assert_int_equal(r.counted, 4);
+    assert_non_null(strstr(message.text, "after case 4"));
+    CHECK_STATUS(run(&r, -1, &message), RB_EINVAL);
+    CHECK_STATUS(run(&r, 100000, &message), RB_EINVAL);
 }
 
 /* ---- The program ------------------------------------------------------------------- */

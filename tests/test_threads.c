@@ -33,7 +33,7 @@ static const char *const words[CASES][16] = {
     {"support", "halfplane", "formulation", "steady", "load", "300", "creep-ratio", "0.4", "solver",
      "newton", "contact-elements", "150", NULL}};
 
-static void solve(job *j)
+static void solve_job(job *j)
 {
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) r = {0};
@@ -41,13 +41,13 @@ static void solve(job *j)
     rb_case_use_cone_solvers(c, rb_friction_cone_solver);
     j->status = RB_OK;
     for (const char *const *w = words[j->k]; *w && j->status == RB_OK; w += 2)
-        j->status = rb_case_set(c, w[0], w[1], 0, &heard);
+        j->status = rb_case_set(c, w[0], w[1], 0, &message);
     if (j->status == RB_OK)
-        j->status = rb_case_resolve(c, &heard);
+        j->status = rb_case_resolve(c, &message);
     if (j->status == RB_OK)
-        j->status = rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard);
+        j->status = rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message);
     if (j->status != RB_OK)
-        print_error("case %d: %s\n", j->k, heard.text);
+        print_error("case %d: %s\n", j->k, message.text);
     const rb_rolling_solution *s = &r.solution;
     const double number[NUMBERS] = {s->normal_load,  s->tangential_load,   s->max_pressure,
                                     s->half_width,   s->creepage,          s->approach,
@@ -73,7 +73,7 @@ static void *work(void *context)
     for (int i = 0; i < CASES; i++) {
         const int k = (w->first + i) % CASES;
         w->jobs[k].k = k;
-        solve(&w->jobs[k]);
+        solve_job(&w->jobs[k]);
     }
     return NULL;
 }

@@ -29,13 +29,13 @@ static rb_bem_flexibility built(make *by, int n, rb_bem_material a, const rb_bem
     rb_bem_flexibility f, of_a, of_b;
     rb_bem_surface above = *HALFPLANE(a, datum);
     above.datum_tangential = sheared[0] * datum;
-    CHECK_OK(by(n, ends, &above, &of_a, &heard));
+    CHECK_OK(by(n, ends, &above, &of_a, &message));
     f = of_a;
     if (b) {
         rb_bem_surface below = *HALFPLANE(*b, 2.0 * datum);
         below.datum_tangential = sheared[1] * datum;
-        CHECK_OK(by(n, ends, &below, &of_b, &heard));
-        CHECK_OK(rb_bem_flexibility_pair(&of_a, &of_b, &f, &heard));
+        CHECK_OK(by(n, ends, &below, &of_b, &message));
+        CHECK_OK(rb_bem_flexibility_pair(&of_a, &of_b, &f, &message));
     }
     return f;
 }
@@ -171,7 +171,7 @@ static void refuse(int n, const double *ends, rb_bem_material material, double d
                    const char *word)
 {
     OWNED(rb_bem_flexibility) f;
-    CHECK_SAYS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &heard),
+    CHECK_SAYS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &message),
                RB_EINVAL, word);
     assert_null(f.x);
 }
@@ -190,7 +190,8 @@ static rb_bem_flexibility disc(int n, double radius, double from, double to, rb_
 {
     SCRATCH double *ends = equal_arcs(n, radius, from, to);
     rb_bem_flexibility f;
-    CHECK_OK(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals, &f, &heard));
+    CHECK_OK(
+        rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals, &f, &message));
     return f;
 }
 
@@ -309,27 +310,27 @@ TEST(bad_discs_are_refused)
     const double equal[] = {-1.5, -0.5, 0.5, 1.5};
     rb_bem_flexibility f;
     CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){2.0, steel},
-                                         RB_BEM_NORMALS_SURFACE, &f, &heard),
+                                         RB_BEM_NORMALS_SURFACE, &f, &message),
                  RB_EINVAL);
-    assert_non_null(strstr(heard.text, "another length"));
+    assert_non_null(strstr(message.text, "another length"));
     CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){1.5, steel},
-                                         RB_BEM_NORMALS_SURFACE, &f, &heard),
+                                         RB_BEM_NORMALS_SURFACE, &f, &message),
                  RB_EINVAL);
-    assert_non_null(strstr(heard.text, "radius 1.5: contact from -1.5 to 1.5 is wider"));
+    assert_non_null(strstr(message.text, "radius 1.5: contact from -1.5 to 1.5 is wider"));
     const double tilted[] = {-1.0, 0.0, 1.0, 2.0};
     for (int k = 0; k < 2; k++) {
         double ends[4];
         for (int i = 0; i < 4; i++)
             ends[i] = k ? -tilted[3 - i] : tilted[i];
         CHECK_STATUS(rb_bem_flexibility_disc(2, ends, &(rb_bem_disc){1.9, steel},
-                                             RB_BEM_NORMALS_SURFACE, &f, &heard),
+                                             RB_BEM_NORMALS_SURFACE, &f, &message),
                      RB_EINVAL);
-        assert_non_null(strstr(heard.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
+        assert_non_null(strstr(message.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
     }
     SCRATCH double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
         refused = REFUSED_FROM(k, rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
-                                                          RB_BEM_NORMALS_OBSTACLE, &f, &heard));
+                                                          RB_BEM_NORMALS_OBSTACLE, &f, &message));
         rb_bem_flexibility_free(&f);
         assert_true(k < 40);
     }
@@ -376,7 +377,7 @@ TEST(failing_allocations)
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;
         refused = REFUSED_FROM(
-            k, rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &heard));
+            k, rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &message));
         assert_true(k < 40);
     }
 }

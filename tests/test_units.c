@@ -11,7 +11,7 @@ static double read_unit(const char *text, const char *unit)
 {
     double value = NAN;
     int plain = 1;
-    assert_int_equal(rb_unit_read(text, unit, &value, &plain, &heard), RB_OK);
+    assert_int_equal(rb_unit_read(text, unit, &value, &plain, &message), RB_OK);
     assert_int_equal(plain, 0);
     return value;
 }
@@ -149,9 +149,9 @@ static const char *unit_of(const char *column)
 static void compare_tables(const char *a_path, const char *b_path, rb_units system)
 {
     OWNED(rb_io_table) a, b;
-    if (rb_io_table_read(a_path, &a, &heard) != RB_OK ||
-        rb_io_table_read(b_path, &b, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    if (rb_io_table_read(a_path, &a, &message) != RB_OK ||
+        rb_io_table_read(b_path, &b, &message) != RB_OK)
+        fail_msg("%s", message.text);
     assert_int_equal(a.columns, b.columns);
     assert_int_equal(a.rows, b.rows);
     int converted = 0;
@@ -570,8 +570,8 @@ TEST(listed_units_are_read)
                 break;
             snprintf(text, sizeof text, "2%s%.*s", strncmp(at, "1/", 2) == 0 ? " " : "",
                      (int)strcspn(at, ","), at);
-            if (rb_unit_read(text, kinds[k], &value, &plain, &heard) != RB_OK || plain)
-                fail_msg("%s: %s", text, heard.text);
+            if (rb_unit_read(text, kinds[k], &value, &plain, &message) != RB_OK || plain)
+                fail_msg("%s: %s", text, message.text);
             rb_message why = {.text = ""};
             const char *other = kinds[(k + 1) % (sizeof kinds / sizeof *kinds)];
             assert_int_equal(rb_unit_read(text, other, &value, &plain, &why), RB_EINVAL);
@@ -584,7 +584,7 @@ TEST(listed_units_are_read)
             int plain = 1;
             char text[60];
             snprintf(text, sizeof text, "3 %s", rb_unit_name(system, kinds[k]));
-            CHECK_OK(rb_unit_read(text, kinds[k], &value, &plain, &heard));
+            CHECK_OK(rb_unit_read(text, kinds[k], &value, &plain, &message));
             rb_unit_of_system(system, kinds[k], &f);
             CHECK_REL(value, rb_unit_times(&f, 3.0), 1e-15, "%s", text);
             CHECK_REL(value, rb_unit_stored(system, kinds[k], 3.0), 1e-15, "%s", text);
@@ -608,7 +608,7 @@ TEST(what_is_no_unit_of_the_quantity_is_refused)
     }
     double value;
     int plain;
-    CHECK_SAYS(rb_unit_read("5g/J", "1/MPa", &value, &plain, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_unit_read("5g/J", "1/MPa", &value, &plain, &message), RB_EINVAL,
                "mm3/(N m), mm3/Nm, m3/(N m), mm3/J, um3/J, 1/psi, in2/lbf; got '5g/J', whose mass");
 }
 
@@ -645,10 +645,10 @@ TEST(units_have_several_spellings)
     }
     double value;
     int plain;
-    CHECK_SAYS(rb_unit_read("1,5", "MPa", &value, &plain, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_unit_read("1,5", "MPa", &value, &plain, &message), RB_EINVAL,
                "a decimal point, 1.5;");
-    CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &heard), RB_EINVAL);
-    CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_unit_read("5 W/(m K)", "MPa", &value, &plain, &message), RB_EINVAL);
+    CHECK_STATUS(rb_unit_read("5 mm", "MPa", &value, &plain, &message), RB_EINVAL);
 }
 
 /* Numbers of lines for people: only those with a unit, or which share that of the next one. */

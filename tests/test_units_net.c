@@ -288,7 +288,7 @@ static const char *unit_of(const char *name, const char *path)
     return option ? option : "";
 }
 
-static int seen, wrong; /* numbers that have a unit; that differ */
+static int counted, wrong; /* numbers that have a unit; that differ */
 
 #define SAY(...) (wrong++ < 6 ? print_error(__VA_ARGS__) : (void)0)
 
@@ -299,7 +299,7 @@ static void compare_numbers(const json_t *a, const json_t *b, const char *path, 
     const double factor = unit ? rb_unit_shown(units, unit, 1.0) : 1.0,
                  over = by ? rb_unit_shown(units, by, 1.0) : 1.0;
     const double wanted = x * factor / over;
-    seen += factor != over;
+    counted += factor != over;
     if (!(fabs(y - wanted) <= 2e-6 * fmax(fabs(wanted), scale * fabs(factor / over))))
         SAY("%s: %.12g %s, want %.12g\n", path, y, unit ? rb_unit_name(units, unit) : "", wanted);
 }
@@ -448,7 +448,7 @@ TEST(every_line_is_the_same_in_every_system)
             continue;
         write_line(lines[k], RB_UNITS_MM, PLAIN, text, sizeof text);
         held_json *mm = run_line(text, RB_UNITS_MM);
-        seen = wrong = 0;
+        counted = wrong = 0;
         now = lines[k];
         for (rb_units units = RB_UNITS_SI; units <= RB_UNITS_INCH; units++) {
             write_line(lines[k], units, PLAIN, text, sizeof text);
@@ -471,9 +471,9 @@ TEST(every_line_is_the_same_in_every_system)
             held_json *file = run_line(rest, RB_UNITS_MM);
             compare(mm, file, "file", NULL, NULL, RB_UNITS_MM, 0.0);
         }
-        if (seen < 10 || wrong > 0)
-            print_error("%d numbers with units, %d wrong: %s\n", seen, wrong, lines[k]);
-        all_right &= seen >= 10 && wrong == 0;
+        if (counted < 10 || wrong > 0)
+            print_error("%d numbers with units, %d wrong: %s\n", counted, wrong, lines[k]);
+        all_right &= counted >= 10 && wrong == 0;
     }
     assert_true(all_right);
 }

@@ -33,7 +33,7 @@ static worn run(const rb_rolling_case *rc, double share, int steps)
                                   .steps = steps,
                                   .increments = 1};
     worn w;
-    CHECK_OK(rb_rolling_wear_run(rc, &wear, NULL, &w.h, &w.last, &heard));
+    CHECK_OK(rb_rolling_wear_run(rc, &wear, NULL, &w.h, &w.last, &message));
     const int last = w.h.n - 1, n = w.last.n;
     w.a = w.h.max_depth[last] * rc->a.radius;
     w.b = w.h.worn_b ? w.h.max_depth_b[last] * rc->a.radius : 0.0;
@@ -143,7 +143,7 @@ TEST(strokes_have_error_bars)
                                   .steps = 6,
                                   .increments = 1};
     worn w;
-    CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+    CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &message));
     const double R = rc.a.radius;
     CHECK_ABS(w.h.max_depth[6] * R, 0.7925, w.h.errors->max_depth[6] * R + 1e-3, "A");
     CHECK_ABS(w.h.max_depth_b[6] * R, 0.7405, w.h.errors->max_depth_b[6] * R + 1e-3, "B");
@@ -169,10 +169,10 @@ TEST(what_strokes_are_refused)
             rc.b.radius = 3.0 * rc.a.radius;
         if (k == 2)
             rc.worn = (rb_rolling_table){3, x, depth};
-        const rb_status s = rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &heard);
-        CHECK_ABS(s, k < 3 ? RB_EINVAL : RB_OK, 0, "%d: %s", k, heard.text);
+        const rb_status s = rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &message);
+        CHECK_ABS(s, k < 3 ? RB_EINVAL : RB_OK, 0, "%d: %s", k, message.text);
         if (k < 3)
-            assert_non_null(strstr(heard.text, says[k]));
+            assert_non_null(strstr(message.text, says[k]));
         rb_rolling_wear_history_free(&h);
         rb_rolling_solution_free(&last);
     }

@@ -77,15 +77,15 @@ export async function drag_brake_in_firefox(url, kind, width, height) {
                 left + wide * (0.5 + 0.48 * Math.sin(0.4 + (k / 6) * Math.PI)),
                 top + tall / 2,
             ]),
-            seen = new Set();
+            texts = new Set();
         let moved = 0;
         await page.drag(kind, way, async () => {
             await page.until("rollbem.solver.idle()");
             const now = await places();
             moved = Math.max(moved, ...now.flatMap((box, i) => box.map((v, j) => Math.abs(v - first[i][j]))));
-            seen.add(await page.run("document.getElementById('headline').textContent"));
+            texts.add(await page.run("document.getElementById('headline').textContent"));
         });
-        return { moved, headlines: seen.size, faults: await page.run("rollbem.faults") };
+        return { moved, headlines: texts.size, faults: await page.run("rollbem.faults") };
     } finally {
         await page.close();
     }

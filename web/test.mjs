@@ -1742,10 +1742,10 @@ async function views(page) {
                 await other.until(IDLE);
                 const found = await other.run(`(() => {
                     const chapter = document.querySelector("#at-${name}"), floor = document.getElementById("slides").getBoundingClientRect().top,
-                        seen = [...chapter.querySelectorAll("figure svg, .stage, input[type=range], .panel .answer")].filter((node) => node.getClientRects().length);
+                        shown = [...chapter.querySelectorAll("figure svg, .stage, input[type=range], .panel .answer")].filter((node) => node.getClientRects().length);
                     return { chapters: [...document.querySelectorAll(".chapter")].filter((node) => node.offsetParent).length,
-                        low: seen.filter((node) => node.getBoundingClientRect().bottom > floor + 1 || node.getBoundingClientRect().right > innerWidth).map((node) => node.outerHTML.slice(0, 80)),
-                        pictures: seen.filter((node) => !node.matches("input, .answer")).length,
+                        low: shown.filter((node) => node.getBoundingClientRect().bottom > floor + 1 || node.getBoundingClientRect().right > innerWidth).map((node) => node.outerHTML.slice(0, 80)),
+                        pictures: shown.filter((node) => !node.matches("input, .answer")).length,
                         counts: [...chapter.querySelectorAll(".tally b")].map((node) => node.textContent).join(),
                         right: chapter.querySelectorAll(".tally.right").length, told: chapter.querySelector(".panel .answer").textContent };
                 })()`);

@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 /* about NULL: of no input */
-static rb_status say(rb_message *why, rb_status s, const char *about, int row, const char *format,
-                     va_list args)
+static rb_status write_message(rb_message *why, rb_status s, const char *about, int row,
+                               const char *format, va_list args)
 {
     if (!why)
         return s;
@@ -36,7 +36,7 @@ rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(why, s, NULL, 0, format, args);
+    write_message(why, s, NULL, 0, format, args);
     va_end(args);
     return s;
 }
@@ -45,7 +45,7 @@ rb_status rb_refuse(rb_message *why, const char *about, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(why, RB_EINVAL, about, 0, format, args);
+    write_message(why, RB_EINVAL, about, 0, format, args);
     va_end(args);
     return RB_EINVAL;
 }
@@ -54,7 +54,7 @@ rb_status rb_refuse_row(rb_message *why, const char *about, int row, const char 
 {
     va_list args;
     va_start(args, format);
-    say(why, RB_EINVAL, about, row, format, args);
+    write_message(why, RB_EINVAL, about, row, format, args);
     va_end(args);
     return RB_EINVAL;
 }

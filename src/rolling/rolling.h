@@ -958,7 +958,7 @@ typedef struct {
      * and returns its status */
     rb_status (*solve)(int k, rb_rolling_row *row, void *context, rb_message *why);
     int (*see)(int k, const rb_rolling_row *row, void *context);
-    int (*tick)(int seen, void *context); /* or NULL */
+    int (*tick)(int finished, void *context); /* or NULL */
     void *context;
 } rb_rolling_sweep;
 

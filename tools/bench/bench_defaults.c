@@ -39,7 +39,7 @@ static rb_status set_words(rb_case *c, const char *options, rb_message *why)
     return s;
 }
 
-static outcome solve(int row, const char *mesh)
+static outcome solve_row(int row, const char *mesh)
 {
     outcome o = {INFINITY, 0.0};
 
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     printf("| | elements | default | equal | ratio | Q/(mu P), default | equal |\n"
            "|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < (int)(sizeof rows / sizeof *rows); k++) {
-        const outcome chosen = solve(k, ""), equal = solve(k, "mesh uniform");
+        const outcome chosen = solve_row(k, ""), equal = solve_row(k, "mesh uniform");
         printf("| %s | %s | %s | %s | %.1f | %.4f | %.4f |\n", rows[k].name,
                row_count(rows[k].n).text, row_seconds(chosen.seconds).text,
                row_seconds(equal.seconds).text, chosen.seconds / equal.seconds, chosen.force_ratio,

@@ -49,7 +49,7 @@ static rb_bem_mesh wheel(int n)
     return mesh;
 }
 
-static void solve(int n, int dense, result *r)
+static void condense_wheel(int n, int dense, result *r)
 {
     rb_bem_mesh mesh = wheel(n);
     rb_bem_system *system;
@@ -74,7 +74,7 @@ static void run(int n, int dense, result *r)
         exit(70);
     const pid_t child = fork();
     if (child == 0) {
-        solve(n, dense, r);
+        condense_wheel(n, dense, r);
         _exit(write(ends[1], r, sizeof *r) == (ssize_t)sizeof *r ? 0 : 70);
     }
     close(ends[1]); /* else a child that dies is waited for in vain */

@@ -210,17 +210,17 @@ typedef struct {
     int *row, *column, *place; /* place: row, or -1 - column, of each variable */
 } path;
 
-static void record(const rb_lcp_pivot *seen, void *context)
+static void record(const rb_lcp_pivot *pivot, void *context)
 {
     path *p = context;
-    if (seen->pivot >= p->room)
+    if (pivot->pivot >= p->room)
         return;
-    p->row[seen->pivot] = seen->row;
+    p->row[pivot->pivot] = pivot->row;
     int c = 0;
-    while (seen->nonbasis[c] != seen->leaving)
+    while (pivot->nonbasis[c] != pivot->leaving)
         c++;
-    p->column[seen->pivot] = c;
-    p->count = seen->pivot + 1;
+    p->column[pivot->pivot] = c;
+    p->count = pivot->pivot + 1;
 }
 
 static path make_path(int n)

@@ -92,7 +92,7 @@ static int boundary_of(const rb_rolling_model *model)
 }
 
 /* Formula of a case that was solved. */
-static double solve(const rb_rolling_case *rc)
+static double solve_case(const rb_rolling_case *rc)
 {
     rb_rolling_model model;
     rb_message why;
@@ -183,13 +183,13 @@ typedef struct {
 } path;
 
 static const path paths[] = {
-    {"wheel on a hub, Newton", wheel, solve, 100, {500, 1000}},
-    {"half-planes, Lemke (K5)", pivoted, solve, 100, {400, 800}},
-    {"half-planes, Lemke (K4)", kwak, solve, 100, {300, 600}},
+    {"wheel on a hub, Newton", wheel, solve_case, 100, {500, 1000}},
+    {"half-planes, Lemke (K5)", pivoted, solve_case, 100, {400, 800}},
+    {"half-planes, Lemke (K4)", kwak, solve_case, 100, {300, 600}},
     /* with 100 the buffers of BLAS, 7 MB whatever n is, would be counted */
-    {"half-planes, Newton", newton, solve, 200, {700, 1400}},
-    {"similar, no matrix", similar, solve, 1600, {50000, 200000}},
-    {"dissimilar, no matrix", newton, solve, 1600, {50000, 200000}},
+    {"half-planes, Newton", newton, solve_case, 200, {700, 1400}},
+    {"similar, no matrix", similar, solve_case, 1600, {50000, 200000}},
+    {"dissimilar, no matrix", newton, solve_case, 1600, {50000, 200000}},
     {"creep curve", newton, curve, 100, {500, 1000}},
     {"study, a solver", newton, worker, 100, {500, 1000}},
     {"study, rows", newton, rows, 1, {5000, 60000}},

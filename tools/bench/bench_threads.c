@@ -20,7 +20,7 @@ static double seconds_of(struct timeval t)
 }
 
 /* Processor and elapsed seconds of one run. */
-static void run(const char *program, const char *options, int threads, double took[CLOCKS])
+static void run(const char *program, const char *options, int threads, double seconds[CLOCKS])
 {
     struct timeval before, after;
     struct rusage used;
@@ -46,8 +46,8 @@ static void run(const char *program, const char *options, int threads, double to
         exit(1);
     }
     gettimeofday(&after, NULL);
-    took[0] = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-    took[1] = seconds_of(after) - seconds_of(before);
+    seconds[0] = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+    seconds[1] = seconds_of(after) - seconds_of(before);
 }
 
 static char program[400];
@@ -56,13 +56,13 @@ static char program[400];
 static void measure(const char *const options[SIDES], const int threads[SIDES],
                     double median[SIDES][CLOCKS])
 {
-    double t[SIDES][CLOCKS][TURNS], took[CLOCKS];
+    double t[SIDES][CLOCKS][TURNS], seconds[CLOCKS];
 
     for (int turn = 0; turn < TURNS; turn++)
         for (int side = 0; side < SIDES; side++) {
-            run(program, options[side], threads[side], took);
+            run(program, options[side], threads[side], seconds);
             for (int c = 0; c < CLOCKS; c++)
-                t[side][c][turn] = took[c];
+                t[side][c][turn] = seconds[c];
         }
     for (int side = 0; side < SIDES; side++)
         for (int c = 0; c < CLOCKS; c++) {

@@ -92,13 +92,13 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns, wo
                          rb_contact_state *state)
 {
     const size_t bytes = (size_t)p->n * sizeof(int);
-    uint64_t seen[MAX_STEPS];
+    uint64_t hash[MAX_STEPS];
     int least = INT_MAX, waited = 0;
 
     for (int step = 0; step < MAX_STEPS && waited < STALL_SWEEPS; step++) {
         int first = 0;
-        seen[step] = rb_hash(RB_HASH_START, state->zone, bytes);
-        while (seen[first] != seen[step])
+        hash[step] = rb_hash(RB_HASH_START, state->zone, bytes);
+        while (hash[first] != hash[step])
             first++;
         if (first < step) /* seen before */
             break;

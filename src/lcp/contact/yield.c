@@ -436,7 +436,7 @@ static void hold_one(const laws *k, const rb_contact_state *state, law *next)
  * RB_MAXITER, RB_SINGULAR, RB_ENOMEM. */
 static rb_status iterate(laws *k, rb_contact_state *state)
 {
-    uint64_t seen[ROUNDS];
+    uint64_t hash[ROUNDS];
     int single = 0;
 
     for (int round = 0; round < ROUNDS + SINGLE_ROUNDS; round++) {
@@ -444,10 +444,10 @@ static rb_status iterate(laws *k, rb_contact_state *state)
         const uint64_t now = rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law), k->sign,
                                      n * sizeof *k->sign);
         for (int j = 0; j < round && !single; j++)
-            single = seen[j] == now;
+            single = hash[j] == now;
         single = single || round >= ROUNDS;
         if (!single)
-            seen[round] = now;
+            hash[round] = now;
         const rb_status s = rb_interrupted() ? RB_INTERRUPTED : solve_laws(k, state);
         if (s != RB_OK)
             return s;

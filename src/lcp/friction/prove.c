@@ -441,12 +441,12 @@ static rb_status take_matrix(const rb_friction_problem *given, rb_friction_probl
 /* Attempts with zones that change until all is proved, or zones come again. */
 static rb_status attempt_all(prover *p, rb_friction_proof *proof)
 {
-    uint64_t seen[ROUNDS];
+    uint64_t hash[ROUNDS];
     rb_status s = RB_UNDECIDED;
     for (int round = 0; s == RB_UNDECIDED && round < ROUNDS; round++) {
-        seen[round] = rb_hash(RB_HASH_START, p->zone, (size_t)p->nc * sizeof *p->zone);
+        hash[round] = rb_hash(RB_HASH_START, p->zone, (size_t)p->nc * sizeof *p->zone);
         for (int k = 0; k < round; k++)
-            if (seen[k] == seen[round])
+            if (hash[k] == hash[round])
                 return RB_UNDECIDED;
         s = pose(p);
         if (s == RB_EINVAL) {

@@ -453,10 +453,10 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     return 0;
 }
 
-static int tick(int seen, void *context)
+static int tick(int finished, void *context)
 {
     const study *st = context;
-    st->a->done = seen;
+    st->a->done = finished;
     return st->a->stopped;
 }
 

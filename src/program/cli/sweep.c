@@ -535,11 +535,11 @@ static int flush_rows(study *st)
 
 /* Rows reach the file at least twice a second.  Where nobody looks on, a line after ten
  * seconds and whenever these have doubled says how far the study is. */
-static int tick(int seen, void *context)
+static int tick(int finished, void *context)
 {
     study *st = context;
     const double now = rb_seconds(), spent = now - st->start;
-    const int left = st->cases - st->first - seen;
+    const int left = st->cases - st->first - finished;
 
     if (cli_interrupted())
         return 1;
@@ -550,10 +550,11 @@ static int tick(int seen, void *context)
     const int is_due = spent >= st->told_next;
     while (st->told_next <= spent)
         st->told_next *= 2.0;
-    if (!st->o->quiet && (is_due || (seen > 0 && (terminal || st->o->progress)))) {
-        fprintf(stderr, "%scase %d of %d, ", terminal ? "\r" : "", st->first + seen, st->cases);
-        fprintf(stderr, seen > 0 ? "%.0f s left%s" : "%.0f s so far%s",
-                seen > 0 ? spent / seen * left : spent, terminal && left > 0 ? "\033[K" : "\n");
+    if (!st->o->quiet && (is_due || (finished > 0 && (terminal || st->o->progress)))) {
+        fprintf(stderr, "%scase %d of %d, ", terminal ? "\r" : "", st->first + finished, st->cases);
+        fprintf(stderr, finished > 0 ? "%.0f s left%s" : "%.0f s so far%s",
+                finished > 0 ? spent / finished * left : spent,
+                terminal && left > 0 ? "\033[K" : "\n");
     }
     return !flush_rows(st);
 }

@@ -678,9 +678,9 @@ static rb_status all_rows(history_state *r, rb_message *why)
         if (s != RB_OK)
             return s;
         if (r->rc->fretting && r->part == 0) {
-            const rb_status seen = follow_cycle(r, why);
-            if (seen != RB_OK)
-                return seen;
+            const rb_status of_cycle = follow_cycle(r, why);
+            if (of_cycle != RB_OK)
+                return of_cycle;
         }
         if (r->found && r->found->rows.jumped == r->history->n)
             note_jump(r);

@@ -160,7 +160,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
  * where they have become less for long. */
 typedef struct {
     double part, least, before;
-    int patience;             /* rounds in which the steps need not become less */
+    int most_waited;          /* rounds in which the steps need not become less */
     int turned, waited, fell; /* rounds */
     double *step;             /* n: of the round before */
 } relaxation;
@@ -181,7 +181,7 @@ static void relax(relaxation *r, const rb_contact_problem *p, double change, dou
     if (r->fell == FELL) {
         r->part = fmin(2.0 * r->part, 1.0);
         r->fell = r->waited = 0;
-    } else if (r->turned == TURNS || r->waited == r->patience) {
+    } else if (r->turned == TURNS || r->waited == r->most_waited) {
         r->part = fmax(0.5 * r->part, 1.0 / 256.0);
         r->turned = r->waited = 0;
         r->least = change;
@@ -230,7 +230,8 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
     /* at rest the edge of slip moves by an element or less in a round (F6) */
     const int moves = model->rc->formulation == RB_STATIC ? p->n : 0, rounds = ROUNDS + 4 * moves;
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
-    relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY, .patience = WAITED + moves};
+    relaxation r = {
+        .part = 1.0, .least = INFINITY, .before = INFINITY, .most_waited = WAITED + moves};
     rb_anderson faster;
     rb_status s = rb_anderson_init(large ? p->n : 0, &faster);
 

@@ -9,42 +9,43 @@ enum { WINDOW = 1 << 14 };
 
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool, rb_message *why)
 {
-    /* given: cases handed out, seen: rows seen; given - seen <= window */
+    /* given: cases handed out, finished: their rows too; given - finished <= window */
     const int window = sweep->count < WINDOW ? sweep->count : WINDOW;
     /* of the k-th case at k modulo window */
     rb_rolling_row *row = calloc((size_t)window + 1, sizeof *row), next;
-    char *came = calloc((size_t)window + 1, sizeof *came);
-    int given = 0, seen = 0;
-    rb_status s =
-        row && came ? RB_OK : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", window);
+    char *arrived = calloc((size_t)window + 1, sizeof *arrived);
+    int given = 0, finished = 0;
+    rb_status s = row && arrived
+                      ? RB_OK
+                      : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", window);
 
-    while (s == RB_OK && seen < sweep->count) {
+    while (s == RB_OK && finished < sweep->count) {
         int number;
         for (int idle = pool->idle(pool);
-             s == RB_OK && idle > 0 && given < sweep->count && given - seen < window; idle--)
+             s == RB_OK && idle > 0 && given < sweep->count && given - finished < window; idle--)
             s = pool->submit(pool, sweep->first + given++);
         const int collected = s == RB_OK ? pool->collect(pool, 5, &number, &next) : 0;
         if (collected > 0) {
             row[(number - sweep->first) % window] = next;
-            came[(number - sweep->first) % window] = 1;
+            arrived[(number - sweep->first) % window] = 1;
         }
         s = collected < 0 ? (rb_status)collected : s;
         /* Hands on the rows that are next in order. */
-        while (s == RB_OK && seen < given && came[seen % window]) {
-            const int k = seen++;
-            came[k % window] = 0;
+        while (s == RB_OK && finished < given && arrived[finished % window]) {
+            const int k = finished++;
+            arrived[k % window] = 0;
             if (sweep->see(sweep->first + k, &row[k % window], sweep->context))
                 s = RB_INTERRUPTED;
         }
-        if (s == RB_OK && sweep->tick && sweep->tick(seen, sweep->context))
+        if (s == RB_OK && sweep->tick && sweep->tick(finished, sweep->context))
             s = RB_INTERRUPTED;
         if (s == RB_INTERRUPTED)
-            rb_fail(why, s, "interrupted after case %d", sweep->first + seen);
+            rb_fail(why, s, "interrupted after case %d", sweep->first + finished);
         else if (s != RB_OK)
             rb_fail(why, s, "sweep: cannot replace a lost process");
     }
     pool->stop(pool);
-    free(came);
+    free(arrived);
     free(row);
     return s;
 }
