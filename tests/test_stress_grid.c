@@ -60,13 +60,13 @@ TEST(a_whole_disc_is_that_of_two_forces)
              "radius-b 50");
     OWNED(rb_rolling_model) model;
     rb_rolling_mirror *mirror;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
-    CHECK_OK(rb_rolling_mirror_create(&model, &mirror, &heard));
+    CHECK_OK(rb_rolling_model_create(&rc, &model, &message));
+    CHECK_OK(rb_rolling_mirror_create(&model, &mirror, &message));
     for (int of_b = 0; of_b < 2; of_b++) {
         OWNED(rb_rolling_stress_grid) grid;
         int far = 0;
         CHECK_OK(rb_rolling_stress_on_grid(of_b ? &mirror->model : &model, 61, 21, INFINITY, &grid,
-                                           &heard));
+                                           &message));
         for (int k = 0; k < 61 * 21; k++) {
             const rb_rolling_stress *got = &grid.at[k], want = of_disc(P, D, got->x, got->y);
             CHECK_MAX(hypot(got->x, got->y - 0.5 * D), 0.5 * D * (1.0 + 1e-12), "on the disc");
@@ -99,8 +99,8 @@ TEST(a_whole_wheel_ends_where_its_material_does)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_stress_grid) grid;
         int outside = 0;
-        CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
-        CHECK_OK(rb_rolling_stress_on_grid(&model, 33, 9, INFINITY, &grid, &heard));
+        CHECK_OK(rb_rolling_model_create(&rc, &model, &message));
+        CHECK_OK(rb_rolling_stress_on_grid(&model, 33, 9, INFINITY, &grid, &message));
         for (int i = 0; i < 33 * 9; i++)
             outside += !grid.inside[i] || isnan(grid.at[i].sxx);
         CHECK_MAX(outside, 2, "a corner of the polygon at most");
@@ -114,8 +114,8 @@ TEST(a_whole_wheel_ends_where_its_material_does)
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     OWNED(rb_rolling_model) model;
     rb_rolling_stress_grid grid;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
-    CHECK_SAYS(rb_rolling_stress_on_grid(&model, 9, 4, INFINITY, &grid, &heard), RB_EINVAL,
+    CHECK_OK(rb_rolling_model_create(&rc, &model, &message));
+    CHECK_SAYS(rb_rolling_stress_on_grid(&model, 9, 4, INFINITY, &grid, &message), RB_EINVAL,
                "a half-plane has no end");
 }
 
