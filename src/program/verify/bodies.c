@@ -280,6 +280,40 @@ static void loads_of_pressures(rb_verify *v)
     }
 }
 
+/* A disc between two opposite forces (Hertz 1883): along the diameter across them, rho = 2 x/D, the
+ * shear is (2 P/(pi D)) (4/(1 + rho^2)^2 - 1 + (1 - rho^2)^2/(1 + rho^2)^2)/2. */
+static void inside_disc(rb_verify *v)
+{
+    static const struct {
+        double rho, wanted;
+    } places[] = {{0.0, 2.0}, {0.5, 0.96}};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_model model;
+    rb_rolling_solution s = {0};
+    rb_message why = {.text = ""};
+    rc.a.poisson = 0.5;
+    rc.a.arc = 0.3;
+    rc.b = rc.a;
+    rc.elastic_b = 1;
+    rc.load = 1000.0;
+    rc.mu = 0.0;
+    rc.outer_elements = 400;
+    const double D = 2.0 * rc.a.radius;
+    rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
+    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+        const double place[] = {0.5 * places[k].rho * D, 0.5 * D};
+        rb_rolling_stress at = {.max_shear = NAN};
+        if (status == RB_OK)
+            status = rb_rolling_stress_at(&model, 1, place, &at, &why);
+        rb_verify_relative(v, at.max_shear * PI * D / (2.0 * rc.load), places[k].wanted, 2e-3,
+                           "disc between two forces: shear over 2 P/(pi D), x = %g R",
+                           places[k].rho);
+    }
+    rb_verify_note(v, status, &why);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 /* Below strips of uniform and of triangular friction, by quadrature (B18; Johnson 2.5, 2.6). */
 static void below_strips(rb_verify *v)
 {
@@ -480,6 +514,7 @@ void rb_verify_bodies(rb_verify *v)
     below_layers(v);
     below_sliding(v);
     below_in_b(v);
+    inside_disc(v);
     below_strips(v);
     at_bonds(v);
     on_smooth_base(v);
