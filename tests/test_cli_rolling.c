@@ -46,7 +46,7 @@ static const struct {
      "--fretting-plot: needs --fretting"},
     {"stress --fretting", 64, "--fretting: only of a single case with --history"},
     {"curve --fretting", 64, "--fretting: only of a single case with --history"},
-    {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
+    {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, 1e8"},
     {"stress --grid 10x", 64, "got '10x'"},
     {"stress --grid 10x1", 64, "got '10x1'"},
     {"stress --grid 10x5y", 64, "got '10x5y'"},

@@ -104,11 +104,13 @@ static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support ha
 /* The grid's size; 0: its text has none. */
 static int read_grid(stress *st)
 {
+    const double most = 1e8; /* of rb_rolling_stress_on_grid */
     int end = 0;
     st->nx = 61;
     st->ny = 41;
-    return !st->grid || (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) == 2 &&
-                         !st->grid[end] && st->nx >= 2 && st->ny >= 2);
+    return !st->grid ||
+           (sscanf(st->grid, "%9dx%9d%n", &st->nx, &st->ny, &end) == 2 && !st->grid[end] &&
+            st->nx >= 2 && st->ny >= 2 && (double)st->nx * st->ny <= most);
 }
 
 /* Given tractions act on a half-plane, and nothing is solved: what else a case has says nothing. */
@@ -167,7 +169,9 @@ static cli_exit check(cli_case_run *run)
                                "strain; in plane stress take --shakedown");
     if (!read_grid(st))
         return cli_case_refuse(run->words, "grid",
-                               "expected two numbers >= 2 such as 61x41, got '%s'", st->grid);
+                               "expected two numbers >= 2 such as 61x41, 1e8 points in all at "
+                               "most, got '%s'",
+                               st->grid);
     if (st->whole && rb_rolling_body_can(st->of_b ? &run->c->rc.b : &run->c->rc.a, RB_BODY_FLAT))
         return cli_case_refuse(
             run->words, "whole",
