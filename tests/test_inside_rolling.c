@@ -4,6 +4,7 @@
 #include "cases.h"
 #include "check.h"
 #include "profiles.h"
+#include "solved.h"
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -413,6 +414,60 @@ TEST(a_wheel_sinks_as_on_elements_that_reach_there)
             assert_int_equal(o.count, k ? 0 : 1);
             rb_rolling_model_free(&model);
             bumps_free(t);
+        }
+    }
+}
+
+/* ---- The far field of wheels ------------------------------------------------------- */
+
+static double largest_difference(const rb_rolling_bodies *x, const rb_rolling_bodies *y)
+{
+    double most = 0.0, scale = 0.0;
+
+    assert_int_equal(x->f.n, y->f.n);
+    for (int k = 0; k < 4 * x->f.m * x->f.n; k++) {
+        most = fmax(most, fabs(x->F[k] - y->F[k]));
+        scale = fmax(scale, fabs(y->F[k]));
+    }
+    return most / scale;
+}
+
+/* Displacements by boundary elements have errors of h/R close to a load: on the mesh that a far
+ * field was taken from few points leave them out, from equal elements on fitted ones they differ;
+ * beside a half-plane and a wheel; and x, h of boundary elements. */
+TEST(a_far_field_moves_from_mesh_to_mesh)
+{
+    static const char *const rows[] = {
+        "support hub hub-ratio 0.3", "support arc", "support hub hub-ratio 0.6 half-width 10",
+        "support hub young-b 1e5 interlayer-normal 1e-5 interlayer-tangential 2e-5",
+        "support arc young-b 1e5 support-b hub hub-ratio-b 0.4 radius-b 30"};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const rb_rolling_case rc = with(with(rb_rolling_case_defaults(),
+                                             "gap parabola formulation steady mesh fitted "
+                                             "creep-ratio 0.4 half-width 2 contact-elements 60"),
+                                        "%s", rows[k]);
+        OWNED(rb_rolling_model) fitted = solved_model(&rc), equal;
+        rb_rolling_mesh mesh;
+        rb_rolling_plan plan = rb_rolling_plan_of(&rc);
+        assert_true(rb_rolling_has_far_field(&rc));
+        CHECK_OK(rb_rolling_model_begin(&rc, NULL, &equal, &message));
+        plan.elements = 30;
+        CHECK_OK(rb_rolling_mesh_uniform(&rc, &plan, 1.2 * fitted.mesh.ends[0],
+                                         1.2 * fitted.mesh.ends[fitted.mesh.n], &mesh, &message));
+        CHECK_OK(rb_rolling_model_build(&equal, &mesh, &message));
+        const rb_rolling_model *const of[] = {&fitted, &equal};
+        for (int i = 0; i < 2; i++) {
+            rb_rolling_far_field *far;
+            rb_rolling_bodies near;
+            CHECK_OK(rb_rolling_far_field_create(of[i], &far, &message));
+            CHECK_OK(rb_rolling_bodies_near(&rc, far, &fitted.mesh, &near, &message));
+            CHECK_MAX(largest_difference(&near, &fitted.bodies), i ? 3e-3 : 1e-3, "row %zu", k);
+            for (int j = 0; j < near.f.m; j++) {
+                CHECK_REL(near.f.h[j], fitted.bodies.f.h[j], 1e-12, "length of %d", j);
+                CHECK_ABS(near.f.x[j], fitted.bodies.f.x[j], 1e-12, "place of %d", j);
+            }
+            rb_rolling_bodies_free(&near);
+            rb_rolling_far_field_free(far);
         }
     }
 }

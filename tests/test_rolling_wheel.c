@@ -411,11 +411,17 @@ TEST(a_small_arc_has_elements_of_its_own)
 
 TEST(every_failed_allocation_is_reported)
 {
-    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
-    set(&rc, "contact-elements 10 outer-elements 16 zone %g", 1.5 * rc.half_width);
-    for (int count = 0, refused = 1; refused; count++) {
-        OWNED(rb_rolling_solution) s;
-        refused = REFUSED_FROM(count, rb_rolling_solve(&rc, &s, NULL));
+    for (int fitted = 0; fitted < 2; fitted++) {
+        rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
+        set(&rc, "contact-elements 10 outer-elements 16");
+        if (fitted)
+            set(&rc, "mesh fitted formulation steady creep-ratio 0.5 gap parabola");
+        else
+            set(&rc, "zone %g", 1.5 * rc.half_width);
+        for (int count = 0, refused = 1; refused; count++) {
+            OWNED(rb_rolling_solution) s;
+            refused = REFUSED_FROM(count, rb_rolling_solve(&rc, &s, NULL));
+        }
     }
 }
 

@@ -537,13 +537,16 @@ typedef struct rb_rolling_model {
     struct rb_rolling_conduction *conduction; /* how heat warms these elements, kept from
                                                  round to round of a friction law; NULL: not
                                                  known yet; owned */
-    struct rb_rolling_cycle *cycle;  /* what fretting has done so far in the last cycle of its
-                                        history; NULL: not asked for; owned */
-    struct rb_rolling_given *given;  /* tractions that were given instead of solved for; NULL: those
-                                        of the state; owned */
-    struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was
-                                        computed on elements of its own; otherwise NULL;
-                                        owned */
+    struct rb_rolling_cycle *cycle; /* what fretting has done so far in the last cycle of its
+                                       history; NULL: not asked for; owned */
+    struct rb_rolling_given *given; /* tractions that were given instead of solved for; NULL: those
+                                       of the state; owned */
+    struct rb_rolling_far_field *far; /* what the rest of wheels adds, while only the edges of the
+                                         contact are searched for; NULL: bodies have systems; owned
+                                       */
+    struct rb_rolling_model *freely;  /* solved free rolling of the same case, if it was
+                                         computed on elements of its own; otherwise NULL;
+                                         owned */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a

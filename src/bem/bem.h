@@ -172,6 +172,8 @@ rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normal
 rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
                                             const double *tangential);
 
+/* Adds a matrix, 2m x 2n, to that of f.  RB_EINVAL: f does not store one. */
+rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F);
 /* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
 /* The same flexibility as a dense matrix. */

@@ -145,6 +145,17 @@ const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f)
     return f->apply == dense_apply ? f->data : NULL;
 }
 
+rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F)
+{
+    double *own = f->data;
+
+    if (f->apply != dense_apply)
+        return RB_EINVAL;
+    for (size_t k = 0; k < 4 * (size_t)f->m * (size_t)f->n; k++)
+        own[k] += F[k];
+    return RB_OK;
+}
+
 rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense)
 {
     double *F;

@@ -127,6 +127,9 @@ rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
 
 /* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
 
+/* What the rest of wheels adds to half-planes. */
+typedef struct rb_rolling_far_field rb_rolling_far_field;
+
 /* The flexibility of one body. */
 typedef struct {
     rb_bem_flexibility f;  /* owned */
@@ -158,6 +161,11 @@ struct rb_rolling_body_kind {
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                              rb_rolling_body_flexibility *one_body, rb_message *why);
+    /* That of the half-plane which answers like the body close to a load, along the same surface;
+     * NULL: there is none beside the body itself. */
+    rb_status (*near)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                      rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The same for equal elements by Fourier transforms, without a matrix, for bodies for
      * which `transformed` returns 1 (NULL: half-planes); NULL: never. */
     int (*transformed)(const rb_rolling_case *rc, const rb_rolling_body *body);
@@ -222,6 +230,33 @@ void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                         const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
                                         rb_message *why);
+
+/* Both bodies by what is near to the loads: wheels by half-planes, and by the far field, where one
+ * is given (otherwise NULL); without systems of boundary elements. */
+rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far_field *far,
+                                 const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
+                                 rb_message *why);
+
+/* ---- fit.c ------------------------------------------------------------------------- */
+
+/* From the edges of another solution with the same wheels to elements fitted to the edges of the
+ * model's case.  Where the elements are short the far field of the other solution is as good as the
+ * model's own: it then keeps that and has no systems of boundary elements.  model: as
+ * rb_rolling_model_begin leaves it. */
+rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model *model,
+                                rb_message *why);
+
+/* ---- far_field.c ------------------------------------------------------------------- */
+
+/* 1 if the bodies have a far field of which few points tell all: wheels of one elastic material
+ * whose near field is subtracted, and gaps that say nothing about places without elements. */
+int rb_rolling_has_far_field(const rb_rolling_case *rc);
+/* From the bodies of the model, which have a matrix.  RB_ENOMEM. */
+rb_status rb_rolling_far_field_create(const rb_rolling_model *model, rb_rolling_far_field **far,
+                                      rb_message *why);
+void rb_rolling_far_field_free(rb_rolling_far_field *far);
+/* Adds it to a flexibility that is stored.  RB_ENOMEM. */
+rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f);
 
 /* ---- mesh.c ------------------------------------------------------------------------ */
 

@@ -45,13 +45,18 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
     return s;
 }
 
+typedef enum { WHOLE, BY_TRANSFORMS, NEAR } part;
+
 static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                   const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                                  int transforms, rb_rolling_body_flexibility *one_body,
+                                  part wanted, rb_rolling_body_flexibility *one_body,
                                   rb_message *why)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh, one_body, why);
+    return (wanted == BY_TRANSFORMS ? kind->transforms
+            : wanted == NEAR && kind->near
+                ? kind->near
+                : kind->flexibility)(rc, plan, body, mesh, one_body, why);
 }
 
 rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
@@ -60,8 +65,9 @@ rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, 
     const rb_rolling_case *rc = model->rc;
     rb_rolling_body_flexibility one_body = {.system = NULL};
     rb_bem_flexibility *f = &one_body.f;
-    const rb_status s = body_flexibility(rc, &model->plan, of_b ? &rc->b : &rc->a, &model->mesh,
-                                         rb_rolling_is_large(rc, &model->mesh), &one_body, why);
+    const rb_status s = body_flexibility(
+        rc, &model->plan, of_b ? &rc->b : &rc->a, &model->mesh,
+        rb_rolling_is_large(rc, &model->mesh) ? BY_TRANSFORMS : WHOLE, &one_body, why);
 
     if (s == RB_OK) {
         rb_bem_flexibility_apply(f, r, w);
@@ -79,7 +85,7 @@ rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, 
 
 /* f: that of both bodies together; one_body: what else they have made. */
 static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                             const rb_rolling_mesh *mesh, int transforms,
+                             const rb_rolling_mesh *mesh, part wanted,
                              rb_rolling_body_flexibility one_body[2], rb_bem_flexibility *f,
                              rb_message *why)
 {
@@ -87,10 +93,10 @@ static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *p
      * half-planes move straight on (theory-bodies.md V4) */
     one_body[0].keeps_memory = one_body[1].keeps_memory =
         rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT);
-    rb_status s = body_flexibility(rc, plan, &rc->a, mesh, transforms, &one_body[0], why);
+    rb_status s = body_flexibility(rc, plan, &rc->a, mesh, wanted, &one_body[0], why);
 
     if (s == RB_OK && rc->elastic_b) {
-        s = body_flexibility(rc, plan, &rc->b, mesh, transforms, &one_body[1], why);
+        s = body_flexibility(rc, plan, &rc->b, mesh, wanted, &one_body[1], why);
         if (s == RB_OK)
             s = rb_bem_flexibility_pair(&one_body[0].f, &one_body[1].f, f, why);
     } else if (s == RB_OK) {
@@ -109,7 +115,8 @@ static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh
 
     if (mesh->n < RB_ROLLING_PRODUCTS_BESIDE_FROM || !rb_rolling_has_transforms(rc))
         return RB_OK;
-    const rb_status s = join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
+    const rb_status s =
+        join_bodies(rc, NULL, mesh, BY_TRANSFORMS, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
 }
 
@@ -128,7 +135,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
                       "bodies that relax and do not roll steadily need a history "
                       "of steps in time");
     if (s == RB_OK)
-        s = join_bodies(rc, plan ? plan : &own, mesh, large, one_body, &bodies->f, why);
+        s = join_bodies(rc, plan ? plan : &own, mesh, large ? BY_TRANSFORMS : WHOLE, one_body,
+                        &bodies->f, why);
     bodies->system_a = one_body[0].system;
     bodies->system_b = one_body[1].system;
     bodies->memory[0] = one_body[0].memory;
@@ -144,6 +152,33 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
         bodies->F = rb_bem_flexibility_stored(&bodies->f);
     if (s == RB_OK && !large)
         s = add_transforms(rc, mesh, bodies, why);
+    if (s != RB_OK)
+        rb_rolling_bodies_free(bodies);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
+               : s;
+}
+
+rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far_field *far,
+                                 const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
+                                 rb_message *why)
+{
+    const rb_rolling_plan own = rb_rolling_plan_of(rc);
+    rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
+    const double start = rb_seconds();
+    rb_status s;
+
+    memset(bodies, 0, sizeof *bodies);
+    s = join_bodies(rc, &own, mesh, NEAR, one_body, &bodies->f, why);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_store(&bodies->f);
+    if (s == RB_OK && far)
+        s = rb_rolling_far_field_add(far, &bodies->f);
+    if (s == RB_OK)
+        s = add_interlayer(rc, &bodies->f);
+    if (s == RB_OK)
+        bodies->F = rb_bem_flexibility_stored(&bodies->f);
+    bodies->seconds_condense = rb_seconds() - start;
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
     return s == RB_ENOMEM

@@ -3,6 +3,7 @@
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
+#include <stdlib.h>
 
 int rb_rolling_has_elastic_core(const rb_rolling_body *body)
 {
@@ -169,6 +170,30 @@ static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_pl
                         body == &rc->b, of_rings, of_rings_b, why);
 }
 
+/* Along the arc, where the logarithm of a disc is that of a half-plane (B10). */
+static rb_status wheel_near(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                            const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                            rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    const double R = body->radius;
+    const rb_bem_surface surface = rb_bem_halfplane(rb_rolling_material(rc, body), R);
+    rb_bem_flexibility *f = &one_body->f;
+    double *arc = rb_alloc((size_t)mesh->n + 2, 1);
+    rb_status s = RB_ENOMEM;
+
+    (void)plan;
+    for (int i = 0; i < mesh->n + 2 && arc; i++)
+        arc[i] = R * asin(mesh->ends[i] / R);
+    if (arc)
+        s = rb_bem_flexibility_surface(mesh->n, arc, &surface, f, why);
+    for (int i = 0; i < f->m && s == RB_OK; i++) { /* chords, as boundary elements are */
+        f->x[i] = 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+        f->h[i] = 2.0 * R * sin(0.5 * (arc[i + 1] - arc[i]) / R);
+    }
+    free(arc);
+    return s;
+}
+
 enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
 /* ---- A clamped arc ----------------------------------------------------------------- */
@@ -180,6 +205,7 @@ const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
                                              .can = WHEEL | RB_BODY_HOMOGENEOUS,
                                              .parameters = arc_parameters,
                                              .flexibility = wheel_flexibility,
+                                             .near = wheel_near,
                                              .surface = rb_rolling_halfplane_surface};
 
 /* ---- A rigid hub ------------------------------------------------------------------- */
@@ -199,6 +225,7 @@ const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .can = WHEEL | RB_BODY_HOMOGENEOUS | RB_BODY_TURNS,
                                              .parameters = hub_parameters,
                                              .flexibility = wheel_flexibility,
+                                             .near = wheel_near,
                                              .transformed = wheel_transformed,
                                              .transforms = wheel_transforms,
                                              .surface = rb_rolling_halfplane_surface};

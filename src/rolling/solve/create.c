@@ -96,20 +96,32 @@ rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc)
     return freely;
 }
 
-/* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  The model
- * is kept for derivatives. */
+/* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  That of a wheel is
+ * found beside the mesh of the model, whose boundary is solved.  A model that has all its parts is
+ * kept for derivatives. */
 static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage, rb_message *why)
 {
     const rb_rolling_case rc = rb_rolling_without_force(model->rc);
+    const int fits = rc.mesh == RB_MESH_FITTED && rb_rolling_has_far_field(&rc) &&
+                     !model->equal_instead && model->state.status == RB_OK &&
+                     !rb_rolling_law_depends_on_state(&rc);
+    rb_status s = RB_MAXITER;
 
     rb_rolling_forget_free_rolling(model);
-    model->freely = calloc(1, sizeof *model->freely);
-    if (!model->freely)
+    rb_rolling_model *freely = model->freely = calloc(1, sizeof *freely);
+    if (!freely)
         return RB_ENOMEM;
-    const rb_status s = rb_rolling_model_create(&rc, model->freely, why);
+    if (fits)
+        s = rb_rolling_model_begin(&rc, &model->plan, freely, why);
+    if (fits && s == RB_OK)
+        s = rb_rolling_fit_beside(model, freely, why);
+    if (s > 0 || freely->equal_instead) {
+        rb_rolling_model_free(freely);
+        s = rb_rolling_model_create(&rc, freely, why);
+    }
     if (s == RB_OK)
-        *creepage = model->freely->state.xi;
-    else
+        *creepage = freely->state.xi;
+    if (s != RB_OK || freely->far)
         rb_rolling_forget_free_rolling(model);
     return s;
 }

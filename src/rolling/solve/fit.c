@@ -12,6 +12,9 @@ enum {
 /* Edges that have come to rest, or near enough after all rounds: in lengths of the
  * outermost elements, which are the smallest of the mesh. */
 static const double AT_REST = 0.1, NEAR_REST = 3.0;
+/* Edges that boundary elements find where the far field of other elements let them rest, in the
+ * same lengths; where it was the one of elements fitted nearly as these: NEAR_REST. */
+static const double WITHIN = 1.0;
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
@@ -114,10 +117,13 @@ static double refine(double found, double h, double *fitted, bracket *b)
 
     if (moved > 2.0)
         *b = (bracket){-INFINITY, INFINITY};
-    if (found > *fitted)
+    if (found > *fitted) {
         b->inner = fmax(b->inner, *fitted);
-    else
+        b->outer = b->outer > *fitted ? b->outer : INFINITY; /* was that of another far field */
+    } else {
         b->outer = fmin(b->outer, *fitted);
+        b->inner = b->inner < *fitted ? b->inner : -INFINITY;
+    }
     if (moved < AT_REST)
         return moved;
     if (b->outer - b->inner < AT_REST * h) {
@@ -149,9 +155,17 @@ int rb_rolling_equal_elements_instead(int elements)
     return (int)ceil(1.3 * elements);
 }
 
+static void drop_far_field(rb_rolling_model *model)
+{
+    rb_rolling_far_field_free(model->far);
+    model->far = NULL;
+}
+
 rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
 {
     const int wanted = model->plan.elements;
+
+    drop_far_field(model);
 
     model->plan.elements = rb_rolling_equal_elements_instead(wanted);
     const rb_status s = rb_rolling_solve_zone(model, 0, why);
@@ -161,16 +175,29 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 
 /* From a solution to elements fitted to its edges, until these rest; where they do not, or
  * where no solution is found on them, to equal ones. */
-rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
+/* Wheels are solved by their far field until the edges rest, and with_systems once more by their
+ * boundary elements, which find them near enough mostly; else the far field of these is the next
+ * one.  room: kept beyond the edges at first, as a part of the patch. */
+static rb_status refit(rb_rolling_model *model, double room, int with_systems, rb_message *why)
 {
     patches fitted, found;
     brackets known[MOST_PATCHES];
+    const int has_far = rb_rolling_has_far_field(model->rc) && model->mesh.n >= 8,
+              rounds = has_far ? 2 * ROUNDS : ROUNDS;
     rb_status s = find_patches(model, &fitted);
-    int rest = 0;
+    int rest = 0, by_systems = 0;
 
+    if (s == RB_OK && has_far && !model->far)
+        s = rb_rolling_far_field_create(model, &model->far, why);
     forget(known);
-    for (int round = 0; round < ROUNDS && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
+    for (int k = 0; k < fitted.count; k++) {
+        rb_rolling_span *span = &fitted.span[k];
+        span->margin_left = fmax(span->margin_left, room * (span->to - span->from));
+        span->margin_right = fmax(span->margin_right, room * (span->to - span->from));
+    }
+    for (int round = 0; round < rounds && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
          round++) {
+        const int by_far_field = model->far != NULL;
         rb_rolling_mesh mesh;
         s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
                                   why);
@@ -197,7 +224,17 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
             }
-            rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
+            by_systems += !by_far_field;
+            rest = moved < (round + 1 == rounds        ? NEAR_REST
+                            : by_far_field || !has_far ? AT_REST
+                            : by_systems > 1           ? NEAR_REST
+                                                       : WITHIN);
+            if (with_systems && by_far_field && (rest || round + 2 >= rounds)) {
+                drop_far_field(model);
+                rest = 0;
+            } else if (has_far && !by_far_field && !rest) {
+                s = rb_rolling_far_field_create(model, &model->far, why);
+            }
         } else {
             forget(known);
             fitted = found;
@@ -207,6 +244,30 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     return model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
            : s == RB_ZONE       ? RB_OK
                                 : s;
+}
+
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
+{
+    return refit(model, 0.0, 1, why);
+}
+
+rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model *model,
+                                rb_message *why)
+{
+    static const double ROOM = 0.1, SHORT = 2e-3; /* of the radius: the error of a far field */
+    const rb_bem_flexibility *f = &beside->bodies.f;
+    const rb_rolling_elements elements = {.n = f->n, .x = f->x, .h = f->h};
+    const double longest = rb_rolling_longest_element(f->n, beside->state.zone, f->h);
+    rb_status s = rb_rolling_mesh_of_result(model->rc, &elements, &model->mesh, why);
+
+    if (s == RB_OK)
+        s = rb_contact_state_alloc(model->mesh.n, &model->state);
+    if (s == RB_OK)
+        s = rb_rolling_far_field_create(beside, &model->far, why);
+    if (s != RB_OK)
+        return s;
+    rb_contact_copy_start(&beside->state, &model->state);
+    return refit(model, ROOM, longest > SHORT * rb_rolling_radius(model->rc), why);
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
@@ -222,7 +283,8 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
      * of them. */
     if (model->rc->zone == 0.0) {
         model->plan.elements = (int)fmax(FIRST, (asked.elements >> halvings) / 2);
-        model->plan.near_field = RB_NEAR_FIELD_PLAIN;
+        if (!rb_rolling_has_far_field(model->rc))
+            model->plan.near_field = RB_NEAR_FIELD_PLAIN;
     }
     if (fine)
         rb_rolling_coarsen_boundary(&model->plan);
@@ -232,7 +294,7 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
     /* Many elements start from the edges and the zones of few. */
     for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
         model->plan.elements = asked.elements >> k;
-        s = rb_rolling_model_refit(model, why);
+        s = refit(model, 0.0, 0, why);
         model->iterations = 0;
     }
     model->plan.elements = asked.elements;

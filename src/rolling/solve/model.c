@@ -47,6 +47,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_conduction_free(model->conduction);
     rb_rolling_given_free(model->given);
     rb_rolling_cycle_free(model->cycle);
+    rb_rolling_far_field_free(model->far);
     rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }
@@ -161,9 +162,12 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
 {
-    rb_status s =
-        kept ? RB_OK
-             : rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh, &model->bodies, why);
+    rb_status s = RB_OK;
+
+    if (model->far && !kept)
+        s = rb_rolling_bodies_near(model->rc, model->far, &model->mesh, &model->bodies, why);
+    else if (!kept)
+        s = rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh, &model->bodies, why);
     if (s == RB_OK)
         s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
