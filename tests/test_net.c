@@ -199,7 +199,7 @@ static const char options_elsewhere[] =
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
     " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
     " bulk-stress bulk-stress-b tilt moment wheel-load strips layer-base layer-base-b"
-    " transverse-radius transverse-radius-b period amplitude fretting ";
+    " transverse-radius transverse-radius-b period amplitude fretting cycle ";
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];

@@ -49,7 +49,9 @@ typedef struct {
     const char *worn_file;                   /* or NULL */
     const char *history_file;                /* or NULL */
     rb_rolling_program program;              /* the history of that file; n = 0: none */
-    int error;                               /* 1: estimate discretisation errors */
+    double cycle; /* the first of its rows that --cycle names, and both */
+    rb_numbers cycles;
+    int error;       /* 1: estimate discretisation errors */
     double accuracy; /* refine until the errors are below this; 0: no refinement */
     rb_units units;  /* units of arguments without a unit and of printed results; a case file
                         names its own units.  The values in this struct are in mm, N, MPa */

@@ -218,6 +218,8 @@ typedef struct {
     int steps;        /* transient */
     int fretting;     /* 1: of a history at rest whose rows end with a cycle, what fretting does to
                          each element in the last one */
+    int cycle_from, cycle_to; /* rows, from 1, between whose ends that cycle lies instead; 0: none
+                                 are given */
 
     rb_rolling_mesh_kind mesh;
     int contact_elements;    /* uniform: in the potential contact; fitted: across the contact
@@ -632,6 +634,8 @@ typedef struct rb_rolling_history {
     int steady_from;   /* first step from which the state is steady until the end, or -1 */
     rb_units units;    /* of all values here */
     struct rb_rolling_history *errors;     /* error bar of every entry; NULL: not computed; owned */
+    rb_rolling_fretting *cycle_errors;     /* error bars of what the last solution has of the cycle,
+                                              without places; NULL: not computed; owned */
     struct rb_rolling_history *deviations; /* standard deviation of every entry that has
                                               derivatives (rb_case_slopes_of_steps); NULL: not
                                               computed; owned */

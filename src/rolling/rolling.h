@@ -896,6 +896,10 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_rolling_model *model, rb_rolling_history *history,
                                          rb_message *why);
 
+/* The error bars of what fretting has done in the last cycle, NAN of all else.  0: there are none.
+ */
+int rb_rolling_errors_of_cycle(const rb_rolling_history *history, rb_rolling_errors *errors);
+
 /* Peak memory in bytes that rb_rolling_solve needs; serves to refuse sizes that are too
  * large.  n: contact elements; boundary: boundary elements of one wheel (0: half-planes);
  * unknowns: size of Newton's last linear system, elements in contact plus sticking

@@ -8,9 +8,11 @@
 json_t *rb_report_json_errors(const rb_rolling_errors *e)
 {
     json_t *errors = json_object();
+    const int of_cycle = !isnan(e->scalar.fretting.work); /* those of steps are in the history */
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        const int is_there = r->condition == RB_FOR_ALL || !isnan(rb_rolling_number(r, &e->scalar));
+        const int is_there =
+            (r->condition == RB_FOR_ALL && !of_cycle) || !isnan(rb_rolling_number(r, &e->scalar));
         if (r->error_bar && is_there)
             rb_report_json_set(&errors, r->name,
                                rb_report_json_number(rb_rolling_number(r, &e->scalar)));

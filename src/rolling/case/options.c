@@ -332,6 +332,10 @@ const rb_option rb_case_table[] = {
     RB_FLAG_LINE("fretting", RC(fretting),
                  "with --history, at rest: what the last cycle of its rows does to each element: "
                  "work of friction, slip range, Ruiz's two parameters, SWT, largest shear"),
+    RB_NUMBER_LINE("cycle", PLACE(cycle), "-", RB_FROM(1),
+                   "FROM,TO: with --fretting, the cycle from the end of one row of the history to "
+                   "the end of another, counted from 1",
+                   .unset = "the last one", .list = PLACE(cycles), .frozen = 1),
 
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),
                    "static, viscoelastic bodies: longest step between two rows of the "

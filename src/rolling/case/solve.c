@@ -30,6 +30,7 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step, 
         const rb_rolling_observer observer = {step, context};
         const rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
             &c->rc, program, &observer, &r->model, &r->history, why);
+        r->has_errors = s == RB_OK && rb_rolling_errors_of_cycle(&r->history, &r->errors);
         return rb_rolling_end_solve(&r->model, s, start, &r->solution, why);
     }
     r->has_errors = 1;

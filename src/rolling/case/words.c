@@ -786,11 +786,19 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
          "steady rolling does not depend on how the bodies were pressed"},
         {rc->formulation == RB_STATIC && !history, "fretting",
          "needs --history, a table whose rows end with a cycle"},
+        {!rc->fretting, "cycle", "only with --fretting"},
         {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
         {relaxes_at_rest && history, "speed", "static contact does not roll"},
         {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
          "a computation with steps needs equal elements"}};
-    const rb_status s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    rb_status s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    if (s == RB_OK)
+        s = count_numbers(c, "cycle", &resolved->cycles, 2, 2, why);
+    for (int k = 0; k < resolved->cycles.n && s == RB_OK; k++)
+        if (resolved->cycles.value[k] != floor(resolved->cycles.value[k]) ||
+            resolved->cycles.value[k] > resolved->program.n)
+            s = rb_refuse(why, "cycle", "expected two rows of the history, 1 to %d, got %g",
+                          resolved->program.n, resolved->cycles.value[k]);
     if (s != RB_OK)
         return s;
     if (relaxes_at_rest && !history)
@@ -836,7 +844,7 @@ static const struct {
     {STRESS, " accuracy ", "stress has error bars (--error), but no refinement"},
     {CRACK, " accuracy ", "a crack has error bars (--error), but no refinement"},
     {STUDY, " accuracy ", "a study has error bars (--error), but no refinement"},
-    {CURVE | SPEEDS | STRESS | WEAR | CRACK | STUDY | DESIGN, " fretting ",
+    {CURVE | SPEEDS | STRESS | WEAR | CRACK | STUDY | DESIGN, " fretting cycle ",
      "only of a single case with --history, as `rollbem --history FILE --fretting`"},
     {STUDY, " history ", "a study has none"},
     {WEAR, " accuracy ", "wear has error bars (--error), but no refinement"},
@@ -978,6 +986,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_heat(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
+    if (s == RB_OK && c->resolved.cycles.n == 2) {
+        c->resolved.rc.cycle_from = (int)c->resolved.cycles.value[0];
+        c->resolved.rc.cycle_to = (int)c->resolved.cycles.value[1];
+    }
     if (s == RB_OK)
         s = rb_case_read_files(c, why);
     if (s == RB_OK)

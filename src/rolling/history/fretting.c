@@ -106,7 +106,7 @@ void rb_rolling_cycle_step(const rb_rolling_model *model)
     const rb_rolling_cycle *c = model->cycle;
     const rb_contact_state *state = &model->state;
 
-    for (int i = 0; c && i < c->n; i++) {
+    for (int i = 0; c && !c->is_over && i < c->n; i++) {
         const double slip = state->zone[i] > RB_ZONE_STICK ? state->lambda[i] : 0.0;
         double *const at = c->sums + i;
         const size_t n = (size_t)c->n;
@@ -126,6 +126,12 @@ rb_status rb_rolling_cycle_end_row(const rb_rolling_model *model, rb_message *wh
         return RB_OK;
     memcpy(c->kept, c->sums, (size_t)c->n * RB_CYCLE_SUMS * sizeof *c->kept);
     return see_bodies(model, why);
+}
+
+void rb_rolling_cycle_end(rb_rolling_model *model)
+{
+    if (model->cycle)
+        model->cycle->is_over = 1;
 }
 
 double rb_rolling_cycle_misses(const rb_rolling_model *model)

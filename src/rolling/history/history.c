@@ -2,6 +2,7 @@
  * increments and transient rolling (theory.md 4.2). */
 #include "rolling/history/internal.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,6 +24,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
             rb_rolling_history_free(beside[k]);
         free(beside[k]);
     }
+    free(h->cycle_errors);
     rb_rolling_columns_free(&rb_rolling_history_columns, h);
     memset(h, 0, sizeof *h);
 }
@@ -51,7 +53,7 @@ typedef struct {
     double shift; /* rigid shift so far [length] */
     rb_rolling_particles particles;
     rb_rolling_steady steady;
-    int frets_from;           /* row after which the cycle begins that --fretting asks for */
+    int frets_from, frets_to; /* row after which the cycle of --fretting begins, and its last */
     int row, part;            /* of the program: rows towards this one that are done */
     int step, steps;          /* of the present row: done, and in all */
     rb_rolling_stride stride; /* the current step */
@@ -619,24 +621,27 @@ static int begin_of_fretting(const rb_rolling_program *program)
 /* Without `fretting` -1.  A body whose stress is not known is refused before anything is solved. */
 static rb_status prepare_cycle(history_state *r, rb_message *why)
 {
+    const int from = r->rc->cycle_from, to = r->rc->cycle_to, rows = r->program->n;
+
     r->frets_from = -1;
+    r->frets_to = rows - 1;
     if (!r->rc->fretting)
         return RB_OK;
+    if (to > 0 && !(from >= 1 && from < to && to <= rows))
+        return rb_refuse(why, "cycle",
+                         "expected two rows of the history, 1 to %d, the earlier one first, got "
+                         "%d,%d",
+                         rows, from, to);
     rb_status s = rb_rolling_stress_check(r->rc, why);
     if (s == RB_OK && r->rc->elastic_b)
         s = rb_rolling_mirror_check(r->rc, why);
-    r->frets_from = begin_of_fretting(r->program);
+    r->frets_from = to > 0 ? from - 1 : begin_of_fretting(r->program);
+    r->frets_to = to > 0 ? to - 1 : r->frets_to;
     return s == RB_OK && r->frets_from < 0
                ? rb_refuse(why, "fretting",
                            "the rows of the history end with no cycle; the last row must prescribe "
-                           "what a row before it does")
+                           "what a row before it does, or --cycle name two rows")
                : s;
-}
-
-static rb_status follow_cycle(const history_state *r, rb_message *why)
-{
-    return r->row - 1 == r->frets_from ? rb_rolling_cycle_begin(r->model, why)
-                                       : rb_rolling_cycle_end_row(r->model, why);
 }
 
 /* How much of mu p0 the friction at the end of a cycle may differ from that at its beginning. */
@@ -644,23 +649,45 @@ static const double CLOSES = 1e-6;
 
 static rb_status check_cycle(const history_state *r, rb_message *why)
 {
-    const double misses = r->model->cycle ? rb_rolling_cycle_misses(r->model) : 0.0;
+    const double misses = rb_rolling_cycle_misses(r->model);
+    char end[30] = "the last one";
 
-    return misses <= CLOSES
-               ? RB_OK
-               : rb_refuse(why, "fretting",
-                           "the cycle from row %d of the history to the last one does not close, "
-                           "friction differs by %.2g mu p0; append the rows of the cycle once more",
-                           r->frets_from + 1, misses);
+    if (misses <= CLOSES)
+        return RB_OK;
+    if (r->rc->cycle_to > 0)
+        snprintf(end, sizeof end, "row %d", r->frets_to + 1);
+    return rb_refuse(why, "fretting,cycle",
+                     "the cycle from row %d of the history to %s does not close, "
+                     "friction differs by %.2g mu p0; append the rows of the cycle once more",
+                     r->frets_from + 1, end, misses);
 }
 
-/* The last cycle. */
+/* After a row. */
+static rb_status follow_cycle(const history_state *r, rb_message *why)
+{
+    const int row = r->row - 1;
+    rb_status s = RB_OK;
+
+    if (row == r->frets_from)
+        s = rb_rolling_cycle_begin(r->model, why);
+    else if (row > r->frets_from && row <= r->frets_to)
+        s = rb_rolling_cycle_end_row(r->model, why);
+    if (s == RB_OK && row == r->frets_to) {
+        s = check_cycle(r, why);
+        rb_rolling_cycle_end(r->model);
+    }
+    return s;
+}
+
+/* The last cycle, or the one that is asked for. */
 static void find_cycle(const history_state *r)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_program *program = r->program;
-    const int last = program->n - 1,
-              j = program->distance || h->n != program->n ? -1 : begin_of_cycle(program);
+    const int given = r->rc->cycle_to > 0, last = given ? r->frets_to : program->n - 1,
+              j = program->distance || h->n != program->n ? -1
+                  : given                                 ? r->frets_from
+                                                          : begin_of_cycle(program);
 
     h->cycle_work = j < 0 ? (double)NAN : h->friction_work[last] - h->friction_work[j];
     h->cycle_rows = j < 0 ? 0 : last - j;
@@ -687,7 +714,7 @@ static rb_status all_rows(history_state *r, rb_message *why)
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }
-    return check_cycle(r, why);
+    return RB_OK;
 }
 
 /* ---- Preparation ------------------------------------------------------------------- */

@@ -101,6 +101,8 @@ rb_status rb_rolling_cycle_begin(rb_rolling_model *model, rb_message *why);
 void rb_rolling_cycle_begin_row(rb_rolling_cycle *cycle);
 void rb_rolling_cycle_step(const rb_rolling_model *model);
 rb_status rb_rolling_cycle_end_row(const rb_rolling_model *model, rb_message *why);
+/* What comes after it is no part of the cycle. */
+void rb_rolling_cycle_end(rb_rolling_model *model);
 /* The largest difference between the friction now and where it began, as a part of mu p0. */
 double rb_rolling_cycle_misses(const rb_rolling_model *model);
 

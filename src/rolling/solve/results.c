@@ -19,7 +19,7 @@
 /* A largest value of a cycle and its place. */
 #define PEAK(name, member, unit_, condition_, words)                                               \
     RESULT(name "_max", fretting.member.value, .unit = unit_, .no_derivative = 1,                  \
-           .condition = condition_, .meaning = words),                                             \
+           .error_bar = RB_SCALE_ONE, .condition = condition_, .meaning = words),                  \
         RESULT(name "_max_at", fretting.member.at, .unit = "mm", .no_derivative = 1,               \
                .condition = condition_, .meaning = "its place")
 
@@ -153,7 +153,7 @@ static const rb_rolling_result scalars[] = {
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
     RESULT("work_per_cycle", fretting.work, .unit = "N", .no_derivative = 1,
-           .condition = RB_FOR_FRETTING,
+           .error_bar = RB_SCALE_ONE, .condition = RB_FOR_FRETTING,
            .meaning = "work of friction in the last cycle of a history, with --fretting"),
     PEAK("fretting_work", fretting_work, "N/mm", RB_FOR_FRETTING, "largest fretting_work"),
     PEAK("slip_range", slip_range, "mm", RB_FOR_FRETTING, "largest slip_range"),

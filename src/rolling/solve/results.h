@@ -57,6 +57,7 @@ enum {
 /* What fretting has done to each element in the last cycle of a history (Q1). */
 typedef struct rb_rolling_cycle {
     int n, bodies;
+    int is_over; /* 1: its last row is done */
     double edge[2];
     double *sums, *kept; /* RB_CYCLE_SUMS x n, now and at the end of the last row */
     double *extreme;     /* bodies x RB_CYCLE_EXTREMES x (n + 2) */

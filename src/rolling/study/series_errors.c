@@ -3,6 +3,7 @@
 #include "rolling/study/internal.h"
 
 #include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -192,10 +193,85 @@ static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *
     return of_run->step(NULL, NULL, step, steps, of_run->context);
 }
 
+/* What fretting has done in the last cycle. */
+static rb_status cycle_of(const rb_rolling_model *model, rb_rolling_solution *scalars,
+                          rb_message *why)
+{
+    rb_rolling_solution solution;
+    const rb_status s = rb_rolling_model_solution(model, &solution, why);
+    *scalars = rb_rolling_scalars_of(&solution);
+    rb_rolling_solution_free(&solution);
+    return s;
+}
+
+/* A largest value "..._max" is that of an element: between it and its neighbours in contact there
+ * may be more, as much as these differ from it.  What is largest at an edge has the uncertainty of
+ * half an element there. */
+static double between_elements(const rb_rolling_result *r, const rb_rolling_solution *s)
+{
+    char name[40];
+    snprintf(name, sizeof name, "%.*s", (int)strlen(r->name) - (int)strlen("_max"), r->name);
+    const rb_rolling_result *column = rb_rolling_find_result(&rb_rolling_solution_columns, name);
+    const double *x = column ? rb_rolling_column(column, s) : NULL, most = rb_rolling_number(r, s);
+    double apart = 0.0;
+    int i = 0;
+
+    if (!x)
+        return 0.0;
+    for (int k = 1; k < s->n; k++)
+        i = x[k] > x[i] ? k : i;
+    if (most > x[i] * (1.0 + 1e-9))
+        return most * 0.5 * s->h[i] / s->half_width;
+    for (int k = i > 0 ? i - 1 : 0; k <= i + 1 && k < s->n; k++)
+        if (s->p[k] > 0.0)
+            apart = fmax(apart, fabs(x[i] - x[k]));
+    return apart;
+}
+
+/* From the coarser runs, as all error bars, and from what lies between elements. */
+static rb_status cycle_errors(const rb_rolling_case *rc, const rb_rolling_solution run[],
+                              const rb_rolling_model *model, rb_rolling_history *h, rb_message *why)
+{
+    const rb_rolling_results *scalars = &rb_rolling_solution_scalars;
+    const int runs = rb_rolling_error_runs(rc);
+    rb_rolling_solution own, errors = rb_rolling_no_row(RB_OK).solution;
+    double coarser[RB_ERROR_RUNS];
+    rb_status s = rb_rolling_model_solution(model, &own, why);
+
+    h->cycle_errors = calloc(1, sizeof *h->cycle_errors);
+    s = s == RB_OK && !h->cycle_errors ? RB_ENOMEM : s;
+    for (int k = 0; k < scalars->n && s == RB_OK; k++) {
+        const rb_rolling_result *r = &scalars->row[k];
+        const int of_cycle = r->condition == RB_FOR_FRETTING || r->condition == RB_FOR_FRETTING_B;
+        if (!of_cycle || !r->error_bar || !rb_rolling_has_result(r, rc, 0))
+            continue;
+        const double value = rb_rolling_number(r, &own);
+        for (int j = 0; j < runs; j++)
+            coarser[j] = rb_rolling_number(r, &run[j]);
+        rb_rolling_set_number(r, &errors,
+                              rb_rolling_contact_error(coarser, value) +
+                                  rb_rolling_boundary_error(runs, coarser, value) +
+                                  between_elements(r, &own) + DBL_EPSILON * fabs(value));
+    }
+    if (s == RB_OK)
+        *h->cycle_errors = errors.fretting;
+    rb_rolling_solution_free(&own);
+    return s;
+}
+
+int rb_rolling_errors_of_cycle(const rb_rolling_history *h, rb_rolling_errors *errors)
+{
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    if (h->cycle_errors)
+        errors->scalar.fretting = *h->cycle_errors;
+    return h->cycle_errors != NULL;
+}
+
 /* Coarser runs of the same way, at its steps. */
 static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
                              const rb_rolling_observer *observer, const rb_rolling_history *own,
-                             rb_rolling_history placed[], rb_message *why)
+                             rb_rolling_history placed[], rb_rolling_solution cycle[],
+                             rb_message *why)
 {
     rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
     const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
@@ -223,6 +299,8 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
                                  rb_rolling_column(r, out));
             }
         }
+        if (s == RB_OK && rc->fretting)
+            s = cycle_of(&model, &cycle[k], why);
         rb_rolling_model_free(&model);
         rb_rolling_history_free(&history);
     }
@@ -236,6 +314,7 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_message *why)
 {
     rb_rolling_history placed[RB_ERROR_RUNS] = {0};
+    rb_rolling_solution cycle[RB_ERROR_RUNS] = {{0}};
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(model, 0, sizeof *model);
@@ -244,14 +323,12 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
         s = rb_refuse(why, "error,history",
                       "a history in time has no error bars; compare with half the time step and "
                       "twice the contact elements");
-    if (s == RB_OK && rc->fretting)
-        s = rb_refuse(why, "error,fretting",
-                      "what a cycle does to the elements has no error bars; compare with twice the "
-                      "contact elements");
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, observer, model, history, why);
     if (s == RB_OK)
-        s = run_coarser(rc, program, observer, history, placed, why);
+        s = run_coarser(rc, program, observer, history, placed, cycle, why);
+    if (s == RB_OK && rc->fretting)
+        s = cycle_errors(rc, cycle, model, history, why);
     if (s == RB_OK)
         s = (history->errors = calloc(1, sizeof *history->errors))
                 ? history_errors(rc, placed, history, history->errors)
