@@ -20,7 +20,8 @@ static rb_resolved_case default_words(rb_case_purpose purpose)
                               .temperature_b = NAN,
                               .memory_a = {.time = NAN, .ratio = NAN},
                               .memory_b = {.time = NAN, .ratio = NAN},
-                              .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}}};
+                              .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}},
+                              .cycle = NAN};
     if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
         words.rc.formulation = RB_STEADY;
     return words;

@@ -384,7 +384,8 @@ static rb_status take_sample(const rb_rolling_case *rc, asked_stress with, sampl
 
 /* The error by the spread over the coarser runs and over another one, NAN where it does
  * not have the value. */
-static double contact_error_with(const double coarser[], double own, double another, int is_finer)
+double rb_rolling_contact_error_with(const double coarser[], double own, double another,
+                                     int is_finer)
 {
     const double error = rb_rolling_contact_error(coarser, own);
     const double first[] = {coarser[0], another}, second[] = {coarser[1], another};
@@ -448,7 +449,7 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
                                       ? take_unseen(&own->solution, runs, *value, coarser)
                                       : 0.0;
             *number_at(&contact, t, k, &scale) =
-                contact_error_with(coarser, *value, other, other_is > 1.0) +
+                rb_rolling_contact_error_with(coarser, *value, other, other_is > 1.0) +
                 least_error(rc, &own->solution, t > 0, scale) + unseen;
             *number_at(&boundary, t, k, &scale) = rb_rolling_boundary_error(runs, coarser, *value);
         }

@@ -15,6 +15,9 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
 /* The two parts of the error of a value, from what the coarser runs have for it: of the
  * contact's mesh and steps, and of the boundary outside (0 without wheels). */
 double rb_rolling_contact_error(const double coarser[], double own);
+/* The same with the value of another mesh, NAN where there is none. */
+double rb_rolling_contact_error_with(const double coarser[], double own, double another,
+                                     int is_finer);
 double rb_rolling_boundary_error(int runs, const double coarser[], double own);
 
 /* Power that slip at an edge dissipates over one element, the part `share` of a contact

@@ -206,7 +206,7 @@ static rb_status cycle_of(const rb_rolling_model *model, rb_rolling_solution *sc
 
 /* A largest value "..._max" is that of an element: between it and its neighbours in contact there
  * may be more, as much as these differ from it.  What is largest at an edge has the uncertainty of
- * half an element there. */
+ * an element there. */
 static double between_elements(const rb_rolling_result *r, const rb_rolling_solution *s)
 {
     char name[40];
@@ -221,16 +221,18 @@ static double between_elements(const rb_rolling_result *r, const rb_rolling_solu
     for (int k = 1; k < s->n; k++)
         i = x[k] > x[i] ? k : i;
     if (most > x[i] * (1.0 + 1e-9))
-        return most * 0.5 * s->h[i] / s->half_width;
+        return most * s->h[i] / s->half_width;
     for (int k = i > 0 ? i - 1 : 0; k <= i + 1 && k < s->n; k++)
         if (s->p[k] > 0.0)
             apart = fmax(apart, fabs(x[i] - x[k]));
     return apart;
 }
 
-/* From the coarser runs, as all error bars, and from what lies between elements. */
+/* From the coarser runs, as all error bars, from another one because stick ends and edges pass
+ * elements and three meshes agree by chance, and from what lies between elements. */
 static rb_status cycle_errors(const rb_rolling_case *rc, const rb_rolling_solution run[],
-                              const rb_rolling_model *model, rb_rolling_history *h, rb_message *why)
+                              const rb_rolling_solution *another, const rb_rolling_model *model,
+                              rb_rolling_history *h, rb_message *why)
 {
     const rb_rolling_results *scalars = &rb_rolling_solution_scalars;
     const int runs = rb_rolling_error_runs(rc);
@@ -248,14 +250,33 @@ static rb_status cycle_errors(const rb_rolling_case *rc, const rb_rolling_soluti
         const double value = rb_rolling_number(r, &own);
         for (int j = 0; j < runs; j++)
             coarser[j] = rb_rolling_number(r, &run[j]);
-        rb_rolling_set_number(r, &errors,
-                              rb_rolling_contact_error(coarser, value) +
-                                  rb_rolling_boundary_error(runs, coarser, value) +
-                                  between_elements(r, &own) + DBL_EPSILON * fabs(value));
+        rb_rolling_set_number(
+            r, &errors,
+            rb_rolling_contact_error_with(coarser, value, rb_rolling_number(r, another), 0) +
+                rb_rolling_boundary_error(runs, coarser, value) + between_elements(r, &own) +
+                DBL_EPSILON * fabs(value));
     }
     if (s == RB_OK)
         *h->cycle_errors = errors.fretting;
     rb_rolling_solution_free(&own);
+    return s;
+}
+
+/* The cycle on a mesh between the coarser ones and that of the case. */
+static rb_status run_another(const rb_rolling_case *rc, const rb_rolling_program *program,
+                             const rb_rolling_observer *observer, rb_rolling_solution *cycle,
+                             rb_message *why)
+{
+    rb_rolling_case other = *rc;
+    rb_rolling_model model = {0};
+    rb_rolling_history history = {0};
+
+    other.contact_elements = (int)(0.85 * rc->contact_elements);
+    rb_status s = rb_rolling_history_run(&other, program, observer, &model, &history, why);
+    if (s == RB_OK)
+        s = cycle_of(&model, cycle, why);
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&history);
     return s;
 }
 
@@ -314,7 +335,9 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_message *why)
 {
     rb_rolling_history placed[RB_ERROR_RUNS] = {0};
-    rb_rolling_solution cycle[RB_ERROR_RUNS] = {{0}};
+    rb_rolling_solution cycle[RB_ERROR_RUNS] = {{0}}, another = {0};
+    rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
+    const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(model, 0, sizeof *model);
@@ -328,7 +351,9 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
     if (s == RB_OK)
         s = run_coarser(rc, program, observer, history, placed, cycle, why);
     if (s == RB_OK && rc->fretting)
-        s = cycle_errors(rc, cycle, model, history, why);
+        s = run_another(rc, program, &through, &another, why);
+    if (s == RB_OK && rc->fretting)
+        s = cycle_errors(rc, cycle, &another, model, history, why);
     if (s == RB_OK)
         s = (history->errors = calloc(1, sizeof *history->errors))
                 ? history_errors(rc, placed, history, history->errors)
