@@ -206,7 +206,7 @@ static rb_status cycle_of(const rb_rolling_model *model, rb_rolling_solution *sc
 
 /* A largest value "..._max" is that of an element: between it and its neighbours in contact there
  * may be more, as much as these differ from it.  What is largest at an edge has the uncertainty of
- * an element there. */
+ * an element on either side. */
 static double between_elements(const rb_rolling_result *r, const rb_rolling_solution *s)
 {
     char name[40];
@@ -221,7 +221,7 @@ static double between_elements(const rb_rolling_result *r, const rb_rolling_solu
     for (int k = 1; k < s->n; k++)
         i = x[k] > x[i] ? k : i;
     if (most > x[i] * (1.0 + 1e-9))
-        return most * s->h[i] / s->half_width;
+        return most * 2.0 * s->h[i] / s->half_width;
     for (int k = i > 0 ? i - 1 : 0; k <= i + 1 && k < s->n; k++)
         if (s->p[k] > 0.0)
             apart = fmax(apart, fabs(x[i] - x[k]));
