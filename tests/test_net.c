@@ -357,6 +357,7 @@ static const conflict conflicts[] = {
     {{"tilt=given", RELAXING}, NULL},
     {{"gap=wave", "period=none"}, "needs --period and --amplitude"},
     {{"gap=wave", "body-b=cylinder|bore"}, "a wave lies on a plane"},
+    {{"gap=wave", "body-b=hub|arc"}, NULL},
     {{"period=given", "regime=steady|transient*|steps"}, "it needs bodies at rest"},
     {{"period=given", "support!halfplane"}, "it needs half-planes of one elastic material"},
     {{"period=given", "body-b=hub|arc"}, "it needs half-planes of one elastic material"},
