@@ -225,6 +225,7 @@ def literals():
 evaluated = sorted(set(literals()), key=len, reverse=True)
 
 
+GREEK = "alpha|beta|gamma|delta|epsilon|eta|theta|kappa|lambda|mu|nu|xi|pi|rho|sigma|tau"
 # tags whose test has another name
 ELSEWHERE = {"B15": "stress_maxima", "B17": "max_pressure", "L4": "default_mesh", "V5": "rolling_relax", "V7": "rolling_relax",
              "F4": "rolling_laws", "F5": "rolling_laws", "I1": "rolling_interlayer", "W2": "rolling_wear", "D2": "sensitivity",
@@ -239,6 +240,16 @@ def untested(page, text):
         if not re.search(rf"_{tag}(?![0-9])", here) and tag not in ELSEWHERE and not any(
                 re.search(rf"\b{tag}\b", open(f).read()) for f in glob.glob("tests/test_*.c")):
             yield f"({tag}) has no test"
+
+
+def unlisted(page, text):
+    """Letters of displayed formulas that docs/symbols.md does not have."""
+    listed = " ".join(row.split("|")[1] for row in re.findall(r"^\|.*", open("docs/symbols.md").read(), re.M))
+    for formula in re.findall(r"```math\n(.*?)```", text, re.S):
+        formula = re.sub(r"\\(?:text|operatorname|mathrm|begin|end|var(?=epsilon))(?:\{[^}]*\})?", r" \\ ", formula).replace("\\ epsilon", r"\epsilon")
+        for greek, letter in re.findall(rf"\\({GREEK})\b|(?<![\\A-Za-z_{{])([A-Za-z])(?![A-Za-z])", formula):
+            if not re.search(rf"(?<![A-Za-z]){greek or letter}(?![A-Za-z])", listed):
+                yield f"docs/symbols.md does not have {greek or letter}"
 
 
 def broken_courses(text):
@@ -270,7 +281,7 @@ for page in sys.argv[1:] or sorted(glob.glob("docs/*.md") + OTHER_PAGES):
             wrong += check("\n".join(COMMENT.findall(above[0])), block[0], shown)
         elif shown:
             wrong.append(f"line {text.count(chr(10), 0, block.start()) + 1}: no command for {' '.join(shown)}")
-    wrong += untested(page, text) if "theory" in page else []
+    wrong += [*untested(page, text), *sorted(set(unlisted(page, text)))] if "theory" in page else []
     for line in wrong:
         print(f"{page}: {line}")
     if checks or wrong:
