@@ -88,15 +88,6 @@ def tag_torques():
     close(value(both[0], **names), value(both[1], **names))
 
 
-def tag_V6():
-    text = printed(BODIES, r"\pi_k^{\text{new}} = e^{-r}\pi_k + c_0\,t^{\text{before}} + c_1\,t^{\text{new}}").split("= ")[1]
-    text = text.replace(r"\pi_k", "a").replace(r"t^{\text{before}}", "b").replace(r"t^{\text{new}}", "d").replace("e^{-r}", "E*")
-    r = 0.8
-    c_0, c_1 = (1 - np.exp(-r))/r - np.exp(-r), 1 - (1 - np.exp(-r))/r  # the other tag_V6 has these
-    exact = 0.4*np.exp(-r) + quad(lambda u: r*np.exp(-r*(1 - u))*(2.0 + 3.0*u), 0, 1)
-    close(value(text, E=np.exp(-r), a=0.4, b=2.0, d=5.0, c_0=c_0, c_1=c_1), exact)
-
-
 def tag_L9():
     fix = lambda t: t.replace(r"\sinh^2\alpha", "s^2").replace(r"\cosh^2\alpha", "c^2").replace(r"\sinh\alpha\cosh\alpha", "s c ")
     N, T, C = (printed(BODIES, t).split("=")[1] for t in (
@@ -164,7 +155,7 @@ def tag_punch():
 def tag_waves():
     a = printed(ROLLING, r"\frac{2a}{L} = \frac{2}{\pi} \arcsin\sqrt f").split("=")[1].replace(r"\arcsin\sqrt f", "*asin(sqrt(f))")
     p0 = printed(ROLLING, r"p_0 = \frac{2 P/L}{\sin(\pi a/L)}").split("=")[1].replace(r"\sin(\pi a/L)", "S")
-    delta = printed(ROLLING, r"\frac{\delta}{D} = f (1 - \ln f)").split("=")[1].replace("f (", "f*(")
+    delta = printed(ROLLING, r"\frac{\delta}{D} = f (1 - \ln f)").split("=")[1]
     Es, D, L = 210000/0.91/2, 0.001, 1.0
     f = 0.4
     s = rollbem.solve(support="halfplane", similar=True, young=210000, poisson=0.3, gap="wave", amplitude=D, period=L, load=f*np.pi*Es*D, mu=0,
@@ -218,14 +209,6 @@ def tag_W5():
     p = lambda x: np.exp(-x*x)
     h_B = lambda X, u: p(X - u)
     close([h_B(value(at, x=x, u=0.4), 0.4) for x in (-0.3, 0.0, 0.8)], [p(x) for x in (-0.3, 0.0, 0.8)])
-
-
-def tag_B10_strip():
-    printed(BODIES, r"\int\frac{F(s)}{z-s}\,ds = F(z)\,\Lambda - F'\,h, \qquad \Lambda = \ln\frac{a}{b}, \qquad F(s) = F_0 + F'\,s")
-    z, lo, hi = 0.2 + 0.5j, -1.0, 0.6  # a, b: the distances of z from the ends
-    F = lambda s: 0.4 + 1.3*s
-    got = quad(lambda s: (F(s)/(z - s)).real, lo, hi) + 1j*quad(lambda s: (F(s)/(z - s)).imag, lo, hi)
-    close(F(z)*np.log((z - lo)/(z - hi)) - 1.3*(hi - lo), got)
 
 
 def tag_V8_logarithm():

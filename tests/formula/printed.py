@@ -26,7 +26,7 @@ def printed(page, text):
 def plain(text):
     """LaTeX as plain text."""
     for old, new in [(r"\\left|\\right|\\,|\\;|\\!|\\quad|&", " "), (r"\\tfrac(\d)(\d)", r"(\1/\2)"),
-                     (r"\\operatorname\{(\w+)\}|\\mathrm\{(\w+)\}", r" \1\2 "), (r"E\^\*", " Es "), (r"\\hat ", " "),
+                     (r"\\operatorname\{(\w+)\}|\\mathrm\{(\w+)\}", r" \1\2 "), (r"E\^\*|E\\\*", " Es "), (r"\\hat ", " "),
                      (r"\\([A-Za-z]+)", r" \1 "), (r" cdot ", "*")]:
         text = re.sub(old, new, text)
     group = r"\{((?:[^{}]|\{[^{}]*\})*)\}"
