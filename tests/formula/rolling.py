@@ -212,7 +212,7 @@ def tag_E3():
     for s in (0.1, 0.5, 0.9):  # strips: a sin(phi), p_0 sin(phi)
         of = lambda phi: np.sin(phi)**3*(1 - max(0, 1 - s/np.sin(phi))**2)
         strips = integrate.quad(of, 0, np.pi, limit=200, points=[np.arcsin(s), np.pi - np.arcsin(s)])[0]/(4/3)
-        close(value(text, s=s, t=value(printed(PAGE, r"t = \sqrt{1-s^2}").split("=")[1].replace(r"\sqrt{1-s^2}", "sqrt(1-s^2)"), s=s), acos=np.arccos), strips, 1e-6)
+        close(value(text, s=s, t=value(printed(PAGE, r"t = \sqrt{1-s^2}").split("=")[1], s=s), acos=np.arccos), strips, 1e-6)
     C_11 = value(printed(PAGE, "C_11 = pi^2/(4(1-nu))").split("=")[1], nu=0.25)
     slope = 3*np.pi/4*(2*np.pi/3)/2/(1 - 0.25)  # of mu W s: W = 2 pi a b p_0/3, R_eq = E* a/(2 p_0), E* = G/(1 - nu)
     close(C_11, slope)
