@@ -856,6 +856,23 @@ TEST(pictures_in_every_kind)
         }
 }
 
+/* Where nothing rubs, the picture of the tractions names pressure alone. */
+TEST(a_picture_without_friction_names_none)
+{
+    static const char *const mu[] = {"0", "0.3"};
+    for (int k = 0; k < 2; k++) {
+        char line[200];
+        rb_format(line, sizeof line,
+                  SIMILAR "--contact-elements 20 --mu %s --plot a.svg --output out.tsv --quiet",
+                  mu[k]);
+        assert_int_equal(rollbem(line), 0);
+        assert_int_equal(shell("grep -q 'pressure p<' a.svg"), 0);
+        assert_int_equal(shell("grep -q 'friction q<' a.svg"), !k);
+        assert_int_equal(shell("grep -q 'traction ' a.svg"), !k);
+        assert_int_equal(shell("grep -q 'μp<' a.svg"), !k);
+    }
+}
+
 /* A frame for each step, of many steps at most sixty. */
 TEST(a_history_moves)
 {

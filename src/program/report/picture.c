@@ -218,12 +218,19 @@ static void let_tractions(FILE *out, const view *v)
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
     rb_report_let(out, "p_from", -below);
     rb_report_let(out, "p_to", above);
+    const int has_friction = rb_rolling_largest_mu(v->rc) > 0.0;
     if (!v->dimensionless)
-        rb_report_let_text(out, "p_label", "traction%s", RB_REPORT_COUNTED_IN(0, v->stress.name));
+        rb_report_let_text(out, "p_label", "%s%s", has_friction ? "traction" : "pressure",
+                           RB_REPORT_COUNTED_IN(0, v->stress.name));
+    else if (!has_friction)
+        rb_report_let_text(out, "p_label", "%s", "p / p_0");
     else
         rb_report_let_text(out, "p_label", "p / p_0,  q / %s",
                            v->friction_unit < v->stress_unit ? "(μ p_0)" : "p_0");
-    rb_report_let_text(out, "bound_title", "%s", s->plastic ? "bounds" : "±μp");
+    rb_report_let_text(out, "bound_title", "%s",
+                       !has_friction ? ""
+                       : s->plastic  ? "bounds"
+                                     : "±μp");
 }
 
 /* The axis of the panel of this name, with so many steps. */

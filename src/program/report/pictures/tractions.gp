@@ -1,6 +1,7 @@
 # Pressure, friction and its bounds over the zones, with slip and temperature below.
 # $drawn: the columns of $table that are drawn, with the ends of the contact; $zones: from, to, zone,
-# and how its name stands (0 not, 1 level, 2 upright); $names: the bodies at their temperatures.
+# and how its name stands (0 not, 1 level, 2 upright); $names: the bodies at their temperatures; bound_title: ''
+# without friction.
 set datafile missing '?'
 heat = has('temperature_K')
 top(k) = up + number(heat ? '0.83 0.45 0.275' : '0.83 0.36', k)
@@ -37,7 +38,7 @@ plot 0 with lines linecolor rgb grey linewidth 0.6 notitle, \
      $drawn using 'x':'bound' with @line dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 title bound_title, \
      $drawn using 'x':(-column('bound')) with @line dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 notitle, \
      $drawn using 'x':'p' with @line linecolor rgb '#1f4e79' linewidth 1.8 title 'pressure p', \
-     $drawn using 'x':'q' with @line linecolor rgb '#c0392b' linewidth 2.2 title 'friction q' @carter_part
+     $drawn using 'x':(bound_title eq '' ? NaN : column('q')) with @line linecolor rgb '#c0392b' linewidth 2.2 title (bound_title eq '' ? '' : 'friction q') @carter_part
 unset label
 unset key
 unset object
