@@ -296,6 +296,7 @@ TEST(wear_that_makes_no_sense_is_refused)
             wear.increments = 0);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.law = RB_WEAR_DISSIPATION);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.slides = 0);
+    REFUSED("between which and its opposite A moves", wear.slides = 0);
     REFUSED("takes one coefficient of friction", wear.law = RB_WEAR_DISSIPATION,
             rc.friction.law = RB_FRICTION_linear);
     REFUSED("needs equal elements", rc.mesh = RB_MESH_FITTED);

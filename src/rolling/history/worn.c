@@ -816,6 +816,12 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
         return rb_refuse(why, rc->bulk_stress != 0.0 ? "bulk-stress" : "bulk-stress-b",
                          "wear takes bulk stress in steady rolling only, got one with %s",
                          wear->slides ? "--slide" : "fretting cycles");
+    /* under a given approach the shift is a tenth of it */
+    if (!rolls && !wear->slides && isnan(rc->shift) && !rb_rolling_force_is_given(rc) &&
+        isnan(rc->approach) && rb_rolling_pressing_is_given(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "wear: --cycles at rest needs --shift, --force or --force-ratio, between "
+                       "which and its opposite A moves");
     if (rolls && wear->slides)
         return rb_fail(why, RB_EINVAL,
                        "wear: --slide needs --formulation static; for a rolling wheel give "
