@@ -84,21 +84,23 @@ TEST(covers_have_no_elements_around_them)
                  "--core-poisson 0.3 --grid 2x2");
     CHECK_REL(largest(root, "tension", "value"),
               0.6 * number_in(json_object_get(root, "summary"), "max_pressure"), 5e-3, "2 mu p0");
-    static const char *const meshes[] = {"40 --outer-elements 300", "60", "160"};
-    double value[3];
+    static const struct {
+        const char *elements;
+        double most;
+    } meshes[] = {{"40 --outer-elements 300", 0.05}, {"60", 0.01}, {"160", 1e-4}};
     for (int k = 0; k < 3; k++) {
         char line[400];
+        if (!is_in_turn(k, 3))
+            continue;
         snprintf(line, sizeof line,
                  "stress --support hub --cover-thickness 0.15 --radius 100 --young 5000 --poisson "
                  "0.45 --core-young 100 --core-poisson 0.3 --hub-ratio 0.5 --gap parabola --load "
                  "5 --mu 0 --grid 2x2 --contact-elements %s",
-                 meshes[k]);
+                 meshes[k].elements);
         held_json *sleeve = run_json(line);
-        value[k] = largest(sleeve, "tension", "value");
+        CHECK_REL(largest(sleeve, "tension", "value"), 0.75516, meshes[k].most, "%s", line);
         CHECK_MAX(fabs(largest(sleeve, "tension", "x")), 4.0, "%s", line);
     }
-    CHECK_REL(value[0], value[2], 0.05, "40 elements");
-    CHECK_REL(value[1], value[2], 0.01, "60 elements");
 }
 
 /* Below a sleeve that bends the pressure rises towards its edge and falls off within two elements:
@@ -108,6 +110,8 @@ TEST(nodes_at_an_edge_carry_its_load)
     static const int elements[] = {60, 100, 240};
     for (int k = 0; k < 3; k++) {
         char line[400];
+        if (!is_in_turn(k, 3))
+            continue;
         snprintf(line, sizeof line,
                  "stress --support hub --cover-thickness 0.15 --radius 100 --young 5000 --poisson "
                  "0.45 --core-young 100 --core-poisson 0.3 --hub-ratio 0.5 --gap parabola --load "
@@ -380,8 +384,10 @@ TEST(no_point_of_a_scan_has_more)
  * points are apart there. */
 TEST(peaks_that_were_once_missed)
 {
-    compare(318);
-    compare(361);
+    static const int seeds[] = {318, 361};
+    for (int k = 0; k < 2; k++)
+        if (is_in_turn(k, 2))
+            compare(seeds[k]);
 }
 
 /* ---- Bonds ------------------------------------------------------------------------- */

@@ -112,7 +112,7 @@ def test_long_runs_end_by_control_c(call):
     assert out == "ended\n" and worked < 5, f"{out!r}, {worked:.1f} s of work"
 
 
-@pytest.mark.parametrize("asked, call", [
+@pytest.mark.parametrize("asked, call", [pytest.param(*calls, marks=in_turn(k, 3)) for k, calls in enumerate([
     ("rollbem.solve(support='halfplane', load=500., contact_elements=300, mesh='uniform', solver='newton')", "s.lcp()"),
     ("rollbem.solve(support='arc', contact_elements=20, outer_elements=1500)", "s.H"),
     ("rollbem.solve(support='hub', load=500., contact_elements=60)", "rollbem.stress(s, grid=(600, 600))"),
@@ -121,7 +121,7 @@ def test_long_runs_end_by_control_c(call):
     ("0", "rollbem.sweep(crack_angle=[20 + k / 50 for k in range(2000)], support='halfplane', load=500., similar=True,"
      " contact_elements=200)"),
     ("0", "rollbem.crack(support='halfplane', load=500., similar=True, passes=1000, contact_elements=400)"),
-])
+])])
 def test_interrupted_calls_leave_their_object_whole(asked, call):
     """Memory that such a call uses is not freed or used again before it has ended: six times one after the other."""
     program = f"""
@@ -339,9 +339,12 @@ def results():
                 rollbem.history({"distance": [0, 1], "creep_ratio": [0.3, 0.3]}, **base))
 
 
-@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x)),
-                                   lambda x: copy.deepcopy(pickle.loads(pickle.dumps(x)))],
-                         ids=["copy", "deepcopy", "pickle", "deepcopy of pickle"])
+@pytest.mark.parametrize("again", [
+    pytest.param(copy.copy, id="copy", marks=in_turn(0, 3)),
+    pytest.param(copy.deepcopy, id="deepcopy", marks=in_turn(1, 3)),
+    pytest.param(lambda x: pickle.loads(pickle.dumps(x)), id="pickle", marks=in_turn(2, 3)),
+    pytest.param(lambda x: copy.deepcopy(pickle.loads(pickle.dumps(x))), id="deepcopy of pickle"),
+])
 def test_results_are_copied(again):
     for result in results():
         other = again(result)
