@@ -954,6 +954,10 @@ typedef struct {
     const rb_rolling_bond_number *bond;
     rb_units units; /* of what notes say */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
+    /* The history of the case that `make` made last, or NULL: the row has the results behind its
+     * last row, and of errors those of the cycle; `measure` is not called.  NULL: no case has one.
+     */
+    const rb_rolling_program *(*program)(void *context);
     /* own: row->own of the case that `make` made last; model: its solved model; may be
      * NULL */
     rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,

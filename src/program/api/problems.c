@@ -399,6 +399,13 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
+static const rb_rolling_program *program_of_case(void *context)
+{
+    const study *st = context;
+    const rb_resolved_case *now = rb_case_resolved(st->cases[st->now]->words);
+    return now->program.n > 0 && now->rc.fretting ? &now->program : NULL;
+}
+
 static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
 {
     const study *st = context;
@@ -498,6 +505,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                                  .solve = names ? solve_crack : NULL,
                                  .see = see_row,
                                  .tick = tick,
+                                 .program = program_of_case,
                                  .context = &st};
     rb_status s = RB_OK;
     begin(a, "sweep.", NULL);

@@ -158,7 +158,10 @@ typedef struct {
 /* The contact of a crack has no error bars of its own. */
 static int has_error_bar(const study *st, const study_result *of)
 {
-    return of->r->error_bar && (of->of == OF_CRACK || !st->has_crack);
+    const int of_cycle =
+        of->r->condition == RB_FOR_FRETTING || of->r->condition == RB_FOR_FRETTING_B;
+    return of->r->error_bar && (of->of == OF_CRACK || !st->has_crack) &&
+           (of_cycle || !rb_case_resolved(st->one)->rc.fretting);
 }
 
 /* A crack may have a result of the same name as its contact. */
@@ -271,6 +274,13 @@ static cli_exit choose_results(study *st)
                 choose(st,
                        (study_result){st->result[k].r, st->result[k].of, 1, st->result[k].bond});
     }
+    const int frets = one->rc.fretting;
+    if (code == CLI_CONTINUE && frets && st->has_crack)
+        code = cli_case_refuse(st->base, "fretting", "not together with a crack");
+    if (code == CLI_CONTINUE && frets &&
+        (st->o->derivatives || (st->o->tolerance && !st->o->sample)))
+        code = cli_case_refuse(st->base, st->o->derivatives ? "derivatives" : "tolerance",
+                               "what fretting does has no derivatives; --sample draws cases");
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
         code = cli_case_refuse(st->base, "derivatives", "the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
@@ -502,6 +512,13 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     if (s == RB_OK)
         *rc = rb_case_resolved(st->one)->rc;
     return s;
+}
+
+static const rb_rolling_program *program_of_case(void *context)
+{
+    const study *st = context;
+    const rb_resolved_case *one = rb_case_resolved(st->one);
+    return one->program.n > 0 ? &one->program : NULL;
 }
 
 /* A case without derivatives has its results. */
@@ -812,6 +829,7 @@ static rb_rolling_sweep sweep_of(study *st)
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,
                               .make = make_case,
+                              .program = program_of_case,
                               .measure =
                                   st->slopes.n + st->slopes.deviations > 0 ? measure_slopes : NULL,
                               .solve = st->has_crack ? solve_crack : NULL,

@@ -17,8 +17,8 @@
 #define POINT(name, member, ...) OF(rb_rolling_curve, name, member, __VA_ARGS__)
 
 /* A largest value of a cycle and its place. */
-#define PEAK(name, member, unit_, condition_, words)                                               \
-    RESULT(name "_max", fretting.member.value, .unit = unit_, .no_derivative = 1,                  \
+#define PEAK(name, member, unit_, condition_, study_, words)                                       \
+    RESULT(name "_max", fretting.member.value, .unit = unit_, .no_derivative = 1, .study = study_, \
            .error_bar = RB_SCALE_ONE, .condition = condition_, .meaning = words),                  \
         RESULT(name "_max_at", fretting.member.at, .unit = "mm", .no_derivative = 1,               \
                .condition = condition_, .meaning = "its place")
@@ -153,17 +153,17 @@ static const rb_rolling_result scalars[] = {
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
     RESULT("work_per_cycle", fretting.work, .unit = "N", .no_derivative = 1,
-           .error_bar = RB_SCALE_ONE, .condition = RB_FOR_FRETTING,
+           .error_bar = RB_SCALE_ONE, .study = 32, .condition = RB_FOR_FRETTING,
            .meaning = "work of friction in the last cycle of a history, with --fretting"),
-    PEAK("fretting_work", fretting_work, "N/mm", RB_FOR_FRETTING, "largest fretting_work"),
-    PEAK("slip_range", slip_range, "mm", RB_FOR_FRETTING, "largest slip_range"),
-    PEAK("ruiz_1", ruiz_1, "N/mm", RB_FOR_FRETTING, "largest ruiz_1"),
-    PEAK("ruiz_2", ruiz_2, "MPa.N/mm", RB_FOR_FRETTING, "largest ruiz_2"),
-    PEAK("swt", swt, "MPa", RB_FOR_FRETTING, "largest swt, also at the edges of the contact"),
-    PEAK("tresca_shear", tresca_shear, "MPa", RB_FOR_FRETTING, "largest tresca_shear"),
-    PEAK("ruiz_2_b", ruiz_2_b, "MPa.N/mm", RB_FOR_FRETTING_B, "largest ruiz_2_b"),
-    PEAK("swt_b", swt_b, "MPa", RB_FOR_FRETTING_B, "largest swt_b, also at the edges"),
-    PEAK("tresca_shear_b", tresca_shear_b, "MPa", RB_FOR_FRETTING_B, "largest tresca_shear_b"),
+    PEAK("fretting_work", fretting_work, "N/mm", RB_FOR_FRETTING, 33, "largest fretting_work"),
+    PEAK("slip_range", slip_range, "mm", RB_FOR_FRETTING, 34, "largest slip_range"),
+    PEAK("ruiz_1", ruiz_1, "N/mm", RB_FOR_FRETTING, 35, "largest ruiz_1"),
+    PEAK("ruiz_2", ruiz_2, "MPa.N/mm", RB_FOR_FRETTING, 36, "largest ruiz_2"),
+    PEAK("swt", swt, "MPa", RB_FOR_FRETTING, 37, "largest swt, also at the edges of the contact"),
+    PEAK("tresca_shear", tresca_shear, "MPa", RB_FOR_FRETTING, 38, "largest tresca_shear"),
+    PEAK("ruiz_2_b", ruiz_2_b, "MPa.N/mm", RB_FOR_FRETTING_B, 39, "largest ruiz_2_b"),
+    PEAK("swt_b", swt_b, "MPa", RB_FOR_FRETTING_B, 40, "largest swt_b, also at the edges"),
+    PEAK("tresca_shear_b", tresca_shear_b, "MPa", RB_FOR_FRETTING_B, 41, "largest tresca_shear_b"),
     RESULT("datum", datum, .unit = "mm",
            .meaning = "distance along the surface at which a load moves nothing; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,

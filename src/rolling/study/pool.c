@@ -62,6 +62,23 @@ static void keep_stress(const rb_rolling_sweep *sweep, rb_rolling_stress_maxima 
     }
 }
 
+/* A case with a history brings its own errors along. */
+static rb_status solve_history(const rb_rolling_sweep *sweep, const rb_rolling_case *rc,
+                               const rb_rolling_program *program, rb_rolling_model *model,
+                               rb_rolling_solution *solution, rb_rolling_errors *errors,
+                               rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_history history = {0};
+    const rb_status s = (sweep->also & RB_ROW_ERRORS
+                             ? rb_rolling_history_with_errors
+                             : rb_rolling_history_run)(rc, program, NULL, model, &history, why);
+    if (s == RB_OK)
+        rb_rolling_errors_of_cycle(&history, errors);
+    rb_rolling_history_free(&history);
+    return rb_rolling_end_solve(model, s, start, solution, why);
+}
+
 void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
                            rb_message *why)
 {
@@ -76,23 +93,26 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
         row->solution.status = sweep->solve(k, row, sweep->context, why);
         return;
     }
+    errors = row->errors;
     rb_status s = sweep->make(k, &rc, sweep->context);
+    const rb_rolling_program *program =
+        s == RB_OK && sweep->program ? sweep->program(sweep->context) : NULL;
     if (s == RB_OK)
-        s = rb_rolling_solve_model(&rc, &model, &solution, why);
+        s = program ? solve_history(sweep, &rc, program, &model, &solution, &errors, why)
+                    : rb_rolling_solve_model(&rc, &model, &solution, why);
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
     /* What a row has besides the solution. */
     const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
     const int with_stress_b = (sweep->also & RB_ROW_STRESS_B) != 0;
-    errors = row->errors;
     if (s == RB_OK && with_stress)
         s = rb_rolling_stress_maxima_find(&model, 0.0, &stress[0], why);
     if (s == RB_OK && with_stress_b)
         s = rb_rolling_stress_maxima_of_b(&model, 0.0, &stress[1], why);
     const int has_all = s == RB_OK;
-    if (s == RB_OK && sweep->measure)
+    if (s == RB_OK && sweep->measure && !program)
         s = sweep->measure(&model, row->own, sweep->context, why);
-    if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
+    if (s == RB_OK && sweep->also & RB_ROW_ERRORS && !program)
         s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &stress[0] : NULL,
                                        with_stress_b ? &stress[1] : NULL, &errors, why);
     if (has_all)
