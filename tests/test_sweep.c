@@ -692,6 +692,48 @@ TEST(a_long_command_line_is_resumed)
                      0);
 }
 
+/* A study of a history with --fretting: each row is what the case alone has, with its bars. */
+TEST(studies_of_fretting)
+{
+#define FRETS                                                                                      \
+    "--support halfplane --similar --gap parabola --radius 100 --load 500 --history f.tsv "
+    static const char *const names[] = {"work_per_cycle", "ruiz_2_max", "swt_max",
+                                        "tresca_shear_b_max"};
+    OWNED(rb_io_table) t;
+    write_file("f.tsv", "force_ratio\n0\n0.6\n-0.6\n0.6\n");
+    assert_int_equal(rollbem("sweep " FRETS "--fretting --error --quiet --contact-elements 30 "
+                             "--vary-1 'mu 0.3 0.5' --results von_mises"),
+                     0);
+    write_file("rows", out);
+    CHECK_OK(rb_io_table_read("rows", &t, NULL));
+    assert_int_equal(t.rows, 2);
+    for (int k = 0; k < 2; k++) {
+        held_json *root = run_json(k ? FRETS "--fretting --error --contact-elements 30 --mu 0.5"
+                                     : FRETS "--fretting --error --contact-elements 30 --mu 0.3");
+        const json_t *summary = json_object_get(root, "summary");
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+            char bar[100], heading[80];
+            const rb_rolling_result *r =
+                rb_rolling_find_result(&rb_rolling_solution_scalars, names[i]);
+            rb_rolling_heading(r, RB_UNITS_MM, heading);
+            snprintf(bar, sizeof bar, "error_%s", heading);
+            CHECK_REL(NOT_NULL(rb_io_table_column(&t, heading))[k], number_in(summary, names[i]),
+                      1e-12, "%s", names[i]);
+            CHECK_REL(NOT_NULL(rb_io_table_column(&t, bar))[k],
+                      number_in(json_object_get(summary, "errors"), names[i]), 1e-12, "%s", bar);
+        }
+        assert_true(NOT_NULL(rb_io_table_column(&t, "von_mises_MPa"))[k] > 0.0);
+        assert_null(rb_io_table_column(&t, "error_normal_load_N/mm"));
+    }
+    check_refused("sweep " FRETS "--vary-1 'mu 0.3'", 64, "only with --fretting");
+    check_refused("sweep " FRETS "--fretting --vary-1 'mu 0.3' --derivatives swt_max", 64,
+                  "has no derivatives");
+    check_refused("sweep " FRETS "--fretting --vary-1 'mu 0.3' --tolerance mu=0.01", 64,
+                  "has no derivatives");
+    check_refused("sweep " FRETS "--fretting --vary-1 'mu 0.3' --crack-length 0.1", 64,
+                  "only of a single case");
+}
+
 TEST(files_of_the_case_belong_to_the_study)
 {
     static const char study[] = "sweep --support halfplane --formulation steady --load 100 "

@@ -174,6 +174,14 @@ def test_least_radius():
     assert abs(found.value - 21.10263627) < 1e-3
 
 
+def test_studies_of_fretting():
+    frets = dict(support="halfplane", similar=True, gap="parabola", radius=100, load=500, fretting=True,
+                 history={"force_ratio": [0, 0.6, -0.6, 0.6]}, contact_elements=30)
+    study = rollbem.sweep(mu=[0.3, 0.5], **frets)
+    alone = rollbem.solve(mu=0.5, **frets)
+    assert study.swt_max[1] == pytest.approx(alone.swt_max, rel=1e-12) and study.work_per_cycle[0] > 0
+
+
 def test_sweeps():
     base = {k: v for k, v in STEADY.items() if k not in ("mu", "load")}
     out = run("sweep", "--vary-1", "mu 0.1 0.3", "--vary-2", "creep-ratio 0:1.5:4", load=500.0, **base).stdout

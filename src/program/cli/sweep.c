@@ -47,7 +47,8 @@ static const rb_option options[] = {
     RB_TEXT_LINE(
         "results", PLACE(results), "A,B,...",
         "further results, by their names in JSON's `summary` or `maxima`: stick_length, "
-        "contact_from, max_shear, von_mises, max_shear_y, ...; those of cracks come by themselves",
+        "contact_from, max_shear, von_mises, max_shear_y, ...; those of cracks, and of --history "
+        "with --fretting, come by themselves",
         .unset = "none"),
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
                  "columns with the derivatives of these results in every case, with respect to all "
@@ -275,8 +276,6 @@ static cli_exit choose_results(study *st)
                        (study_result){st->result[k].r, st->result[k].of, 1, st->result[k].bond});
     }
     const int frets = one->rc.fretting;
-    if (code == CLI_CONTINUE && frets && st->has_crack)
-        code = cli_case_refuse(st->base, "fretting", "not together with a crack");
     if (code == CLI_CONTINUE && frets &&
         (st->o->derivatives || (st->o->tolerance && !st->o->sample)))
         code = cli_case_refuse(st->base, st->o->derivatives ? "derivatives" : "tolerance",
