@@ -696,11 +696,11 @@ TEST(a_long_command_line_is_resumed)
 TEST(studies_of_fretting)
 {
 #define FRETS                                                                                      \
-    "--support halfplane --similar --gap parabola --radius 100 --load 500 --history f.tsv "
+    "--support halfplane --similar --gap parabola --radius 100 --load 500 --history reversal.txt "
     static const char *const names[] = {"work_per_cycle", "ruiz_2_max", "swt_max",
                                         "tresca_shear_b_max"};
     OWNED(rb_io_table) t;
-    write_file("f.tsv", "force_ratio\n0\n0.6\n-0.6\n0.6\n");
+    write_file("reversal.txt", "force_ratio\n0\n0.6\n-0.6\n0.6\n");
     assert_int_equal(rollbem("sweep " FRETS "--fretting --error --quiet --contact-elements 30 "
                              "--vary-1 'mu 0.3 0.5' --results von_mises"),
                      0);
