@@ -203,7 +203,7 @@ int main(int argc, char **argv)
     set("mu", "-1", RB_EINVAL);
     ask_all();
     asked("solve", rb_api_solve(handle));
-    asked("curve", rb_api_curve(handle, 0.0, 0.5, 2));
+    asked("curve", rb_api_curve(handle, "creep-ratio", 0.0, 0.5, 2, NULL, NULL));
     rb_api_free(handle);
     return 0;
 }

@@ -78,7 +78,7 @@ TEST(what_was_refused_is_not_solved)
     assert_true(rb_api_solve(a) < 0);
     assert_string_equal(rb_api_message(a),
                         "--load: expected a number with a decimal point, 2.5; got '2,5'");
-    assert_true(rb_api_curve(a, 0.0, 1.0, 3) < 0);
+    assert_true(rb_api_curve(a, "creep-ratio", 0.0, 1.0, 3, NULL, NULL) < 0);
     assert_string_equal(rb_api_message(a),
                         "--load: expected a number with a decimal point, 2.5; got '2,5'");
     assert_true(isnan(rb_api_number(a, "normal_load")));
@@ -154,7 +154,7 @@ TEST(numbers_are_the_solution)
     assert_true(isnan(rb_api_number(a, "nothing")));
     assert_string_equal(rb_api_value(a, "mu", text, sizeof text), "0.3");
 
-    assert_int_equal(rb_api_curve(a, 0.0, 1.0, 5), RB_OK);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.0, 1.0, 5, NULL, NULL), RB_OK);
     const double *ratio = array(a, "curve.force_ratio", 5, 1);
     CHECK_ABS(ratio[0], 0.0, 1e-6, "free rolling");
     CHECK_REL(ratio[2], rb_api_number(a, "force_ratio"), 2e-2, "the case on its curve");
@@ -387,11 +387,11 @@ TEST(results_of_every_table_are_there)
     assert_true(rb_api_stress(a, 5, 5, 0.0) < 0);
     assert_non_null(strstr(rb_api_message(a), "without error bars"));
 
-    assert_int_equal(rb_api_curve_over(a, "creep", 0.0, 1e-3, 4), RB_OK);
+    assert_int_equal(rb_api_curve(a, "creep", 0.0, 1e-3, 4, NULL, NULL), RB_OK);
     CHECK_REL(array(a, "curve.creepage", 4, 1)[3], 1e-3, 1e-15, "over creepages");
     assert_true(array(a, "curve.error.force_ratio", 4, 1)[1] > 0.0);
     CHECK_ABS(rb_api_number(a, "curve.free_creepage"), 0.0, 1e-9, "similar bodies");
-    assert_true(rb_api_curve_over(a, "slip", 0.0, 1.0, 3) < 0);
+    assert_true(rb_api_curve(a, "slip", 0.0, 1.0, 3, NULL, NULL) < 0);
 }
 
 /* A curve over the speed refuses options that one over the creepage takes, and the handle
@@ -403,7 +403,7 @@ TEST(a_refused_curve_leaves_the_solution)
     held_api *a = rb_api_create_for("curve");
     assert_int_equal(give(a, words), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
-    assert_true(rb_api_curve_over(a, "speed", 1.0, 1e3, 3) < 0);
+    assert_true(rb_api_curve(a, "speed", 1.0, 1e3, 3, NULL, NULL) < 0);
     assert_int_equal(rb_api_derivatives(a), RB_OK);
     assert_true(isfinite(rb_api_number(a, "max_pressure")));
     int rows, columns;
@@ -476,7 +476,7 @@ TEST(every_name_has_its_value)
     assert_null(rb_api_array(a, "mesh.x0", &(int){0}, &(int){0})); /* a half-plane */
     assert_true(rb_api_stress_at(a, 0, &M) < 0);
     assert_non_null(strstr(rb_api_message(a), "at least one point, got 0"));
-    assert_int_equal(rb_api_curve(a, 0.0, 1.0, 3), RB_OK);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.0, 1.0, 3, NULL, NULL), RB_OK);
     CHECK_REL(rb_api_number(a, "curve.half_width"), width, 1e-9, "of the curve");
 
     assert_int_equal(rb_api_lcp(a, 1, &M, &q, "lemke", 0), RB_OK);
@@ -599,7 +599,7 @@ TEST(a_sweep_is_its_cases)
         assert_int_equal(give(one[k], steady), RB_OK);
         assert_int_equal(rb_api_set(one[k], "mu", mu[k]), RB_OK);
     }
-    assert_int_equal(rb_api_sweep(study, 3, one, 2), RB_OK);
+    assert_int_equal(rb_api_sweep(study, 3, one, NULL, NULL, 2), RB_OK);
     const double *Q = array(study, "sweep.tangential_load", 3, 1);
     for (int k = 0; k < 3; k++) {
         assert_int_equal(rb_api_solve(one[k]), RB_OK);
@@ -607,9 +607,9 @@ TEST(a_sweep_is_its_cases)
         CHECK_ABS(array(study, "sweep.status", 3, 1)[k], RB_OK, 0.0, "case %d", k);
     }
     char name[100];
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "tangential_load:mu,max_pressure:load",
-                                              "mu=10%,load=5", 2),
-                     RB_OK);
+    assert_int_equal(
+        rb_api_sweep(study, 3, one, "tangential_load:mu,max_pressure:load", "mu=10%,load=5", 2),
+        RB_OK);
     assert_string_equal(rb_api_derivative(study, "sweep", 1, "name", name, sizeof name),
                         "max_pressure:load");
     assert_string_equal(rb_api_derivative(study, "sweep", 1, "unit", name, sizeof name), "N/mm");
@@ -630,25 +630,25 @@ TEST(a_sweep_is_its_cases)
                   *array(one[k], "tolerance.tangential_load", 1, 1), 1e-12, "case %d", k);
     }
     const double alone = 0.004 * fabs(slope[2]);
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, NULL, "mu=1%", 2), RB_OK);
+    assert_int_equal(rb_api_sweep(study, 3, one, NULL, "mu=1%", 2), RB_OK);
     CHECK_REL(array(study, "sweep.tolerance.tangential_load", 3, 1)[2], alone, 1e-12,
               "by mu alone");
     int rows, columns;
     assert_null(rb_api_array(study, "sweep.tolerance.iterations", &rows, &columns));
     assert_null(rb_api_derivative(study, "sweep", 0, "name", name, sizeof name));
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "nonsense", NULL, 2), RB_EINVAL);
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, NULL, "zone=1", 2), RB_EINVAL);
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one,
-                                              "all:mu,all:load,all:radius,all:young,"
-                                              "all:poisson",
-                                              "mu=1%", 2),
+    assert_int_equal(rb_api_sweep(study, 3, one, "nonsense", NULL, 2), RB_EINVAL);
+    assert_int_equal(rb_api_sweep(study, 3, one, NULL, "zone=1", 2), RB_EINVAL);
+    assert_int_equal(rb_api_sweep(study, 3, one,
+                                  "all:mu,all:load,all:radius,all:young,"
+                                  "all:poisson",
+                                  "mu=1%", 2),
                      RB_EINVAL);
     assert_non_null(strstr(rb_api_message(study), "128 columns"));
     assert_int_equal(rb_api_set(one[1], "approach", "1"), RB_OK);
-    assert_true(rb_api_sweep(study, 3, one, 2) < 0);
+    assert_true(rb_api_sweep(study, 3, one, NULL, NULL, 2) < 0);
     assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));
     assert_int_equal(rb_api_set(one[0], "error", "yes"), RB_OK);
-    assert_true(rb_api_sweep(study, 3, one, 2) < 0);
+    assert_true(rb_api_sweep(study, 3, one, NULL, NULL, 2) < 0);
     assert_non_null(strstr(rb_api_message(study), "case 1: error: these studies have no"));
     for (int k = 0; k < 3; k++)
         rb_api_free(one[k]);
@@ -927,13 +927,13 @@ static void call_everything(int forced)
                  : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
                  : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
                  : k == 7 ? rb_api_prove(a)
-                 : k == 8 ? rb_api_sweep(a, 1, &a, 1)
+                 : k == 8 ? rb_api_sweep(a, 1, &a, NULL, NULL, 1)
                           : rb_api_solve(a));
     }
     rb_api_free(a);
     a = solved(steady);
     rb_blas_threads(2);
-    CHECK_OK(rb_api_curve(a, 0.0, 1.0, 2));
+    CHECK_OK(rb_api_curve(a, "creep-ratio", 0.0, 1.0, 2, NULL, NULL));
     assert_int_equal(rb_blas_threads(1), 2);
     rb_api_free(a);
 }
@@ -1046,7 +1046,7 @@ static rb_status look_around(rb_api *a)
 {
     static const char *const arrays[] = {"patch.normal_load", "friction_power", "curve.creepage",
                                          "curve.error.force_ratio", NULL};
-    const int s = rb_api_curve_over(a, "creep", 0.0, 1e-3, 3);
+    const int s = rb_api_curve(a, "creep", 0.0, 1e-3, 3, NULL, NULL);
     return s == RB_OK ? have_arrays(a, arrays) : (rb_status)s;
 }
 
@@ -1084,7 +1084,7 @@ static rb_status solve_problems(rb_api *a)
     if (s == RB_OK)
         s = have_arrays(a, of_friction);
     if (s == RB_OK)
-        s = rb_api_sweep(a, 1, cases, 1);
+        s = rb_api_sweep(a, 1, cases, NULL, NULL, 1);
     return s == RB_OK ? have_arrays(a, of_sweep) : (rb_status)s;
 }
 
@@ -1278,7 +1278,7 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
     assert_int_equal(give(point, curve_words), RB_OK);
     assert_int_equal(rb_api_resolve(a), RB_OK);
     assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.25, 1.0, 4, "all", NULL), RB_OK);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.25, 1.0, 4, "all", NULL), RB_OK);
     const double *Q = array(a, "curve.tangential_load", 4, 1);
     assert_int_equal(rb_api_set(point, "formulation", "steady"), RB_OK);
     for (int k = 0; k < 4; k += 3) {
@@ -1313,15 +1313,13 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
     if (compared < 500 || one_sided < 10)
         fail_msg("%d compared, %d one-sided", compared, one_sided);
 
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "nonsense", NULL),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 5, "nonsense", NULL), RB_EINVAL);
     assert_null(rb_api_array(a, "curve.derivative.tangential_load:mu", &rows, &columns));
     assert_null(rb_api_array(a, "curve.tangential_load", &rows, &columns));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "approach:zone", NULL),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 5, "approach:zone", NULL), RB_EINVAL);
     /* per cent are those of each point's own creep ratio */
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 3, "tangential_load:mu",
-                                              "mu=0.02,creep-ratio=10%"),
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 3, "tangential_load:mu",
+                                  "mu=0.02,creep-ratio=10%"),
                      RB_OK);
     const double *deviation = array(a, "curve.tolerance.tangential_load", 3, 1);
     for (int k = 0; k < 3; k++) {
@@ -1333,23 +1331,19 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
                   "deviation at point %d", k);
     }
     assert_null(rb_api_array(a, "curve.tolerance.stick_ratio", &rows, &columns));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 3, NULL, "zone=1"),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 3, NULL, "zone=1"), RB_EINVAL);
     assert_null(rb_api_array(a, "curve.tolerance.tangential_load", &rows, &columns));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, -3, NULL, "mu=1%"),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, -3, NULL, "mu=1%"), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "points: expected"));
-    assert_int_equal(rb_api_curve_over(a, "creep-ratio", 0.2, 1.0, 3), RB_OK);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 3, NULL, NULL), RB_OK);
     assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
     assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
     assert_int_equal(rb_api_resolve(a), RB_OK);
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(a, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "not together with error bars"));
     assert_int_equal(rb_api_set(point, "formulation", "static"), RB_OK);
     assert_int_equal(rb_api_resolve(point), RB_OK);
-    assert_int_equal(rb_api_curve_derivatives(point, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL),
-                     RB_EINVAL);
+    assert_int_equal(rb_api_curve(point, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(point), "give --formulation steady"));
 }
 

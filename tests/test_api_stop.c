@@ -35,12 +35,12 @@ static void give(rb_api *a, const char *options)
 
 static int curve(rb_api *a)
 {
-    return rb_api_curve(a, 0.0, 1.5, 1000);
+    return rb_api_curve(a, "creep-ratio", 0.0, 1.5, 1000, NULL, NULL);
 }
 
 static int curve_derivatives(rb_api *a)
 {
-    return rb_api_curve_derivatives(a, "creep-ratio", 0.0, 1.5, 1000, "all", "mu=0.02");
+    return rb_api_curve(a, "creep-ratio", 0.0, 1.5, 1000, "all", "mu=0.02");
 }
 
 static int guess(rb_api *a)
@@ -197,8 +197,8 @@ static int sweep(rb_api *a, int cracks, const char *derivatives)
         values[k] = "30";
     }
     const int s = cracks        ? rb_api_sweep_cracks(a, CASES, cases, 1, names, values, 2)
-                  : derivatives ? rb_api_sweep_derivatives(a, CASES, cases, derivatives, NULL, 2)
-                                : rb_api_sweep(a, CASES, cases, 2);
+                  : derivatives ? rb_api_sweep(a, CASES, cases, derivatives, NULL, 2)
+                                : rb_api_sweep(a, CASES, cases, NULL, NULL, 2);
     for (int k = 0; k < CASES; k++)
         rb_api_free(cases[k]);
     return s;
@@ -229,12 +229,12 @@ static int matrix(rb_api *a)
 
 static int small_curve(rb_api *a)
 {
-    return rb_api_curve(a, 0.0, 1.5, 3);
+    return rb_api_curve(a, "creep-ratio", 0.0, 1.5, 3, NULL, NULL);
 }
 
 static int small_curve_derivatives(rb_api *a)
 {
-    return rb_api_curve_derivatives(a, "creep-ratio", 0.1, 0.9, 2, "tangential_load", "mu=0.02");
+    return rb_api_curve(a, "creep-ratio", 0.1, 0.9, 2, "tangential_load", "mu=0.02");
 }
 
 static int small_stress(rb_api *a)

@@ -140,7 +140,7 @@ export async function load_library(bytes) {
             return c.rb_api_solve(this.at);
         }
         curve(from, to, points) {
-            return c.rb_api_curve(this.at, from, to, points);
+            return with_text(["creep-ratio"], (over) => c.rb_api_curve(this.at, over, from, to, points, 0, 0));
         }
         prove() {
             return c.rb_api_prove(this.at);

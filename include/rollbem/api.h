@@ -125,7 +125,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   mesh.x0 mesh.y0 mesh.x1 mesh.y1   boundary of a wheel
  *   H G                          its boundary elements' matrices
  *   curve.creepage ...           after rb_api_curve, an entry per point; curve.error. ...
- *   curve.derivative.approach:mu ...   after rb_api_curve_derivatives, points x 2: for a
+ *   curve.derivative.approach:mu ...   after rb_api_curve, points x 2: for a
  *                                falling and for a growing mu; NAN: none
  *   curve.tolerance.tangential_load ...   with uncertain inputs: standard deviations of the
  *                                columns that have derivatives
@@ -182,7 +182,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the
  *                                names of crack.summary
- *   sweep.derivative.approach:mu ...   after rb_api_sweep_derivatives
+ *   sweep.derivative.approach:mu ...   after rb_api_sweep
  *   sweep.tolerance.approach ...   with uncertain inputs: standard deviations
  *   lcp.z lcp.w                  after rb_api_lcp, rb_api_lcp_sparse
  *   lcp.all                      after rb_api_lcp_all, n x solutions
@@ -198,20 +198,15 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 /* Each of these functions computes the arrays that are named after it from the solved
  * case. */
 
-/* A creep curve of the case: steady rolling at `points` creepage ratios between from and
- * to. */
-int rb_api_curve(rb_api *a, double from, double to, int points);
-/* The same over "creep-ratio", "creep" or (viscoelastic bodies) "speed", with error bars
- * if the case has them. */
-int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
-/* The same with derivatives at every point: those of the single case that the point is.
- * derivatives: RESULT (with respect to every number of the case) or RESULT:OPTION,
- * separated by commas; "all" in the place of RESULT; NULL: none.  tolerance: uncertain
- * inputs as of rb_api_tolerances, for curve.tolerance.NAME; NULL: none; per cent are those
- * of the point's own numbers.  The case must be steady and have no error bars.  Without derivatives
- * at some points rb_api_note says why. */
-int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
-                             const char *derivatives, const char *tolerance);
+/* A creep curve of the case: steady rolling at `points` values between from and to of over,
+ * "creep-ratio", "creep" or "speed", with error bars if the case has them.
+ * derivatives: at every point those of the single case that the point is: RESULT (with respect to
+ * every number of the case) or RESULT:OPTION, separated by commas; "all" in the place of RESULT;
+ * NULL: none.  tolerance: uncertain inputs as of rb_api_tolerances, for curve.tolerance.NAME; NULL:
+ * none; per cent are those of the point's own numbers.  With either the case must be steady and
+ * have no error bars.  Without derivatives at some points rb_api_note says why. */
+int rb_api_curve(rb_api *a, const char *over, double from, double to, int points,
+                 const char *derivatives, const char *tolerance);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
 /* Newton's method from a contact that sticks everywhere. */
@@ -256,7 +251,7 @@ int rb_api_smooth_derivatives(rb_api *a);
  * derivatives, or ""). NULL: no such input or field. */
 const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
 /* Derivatives of the columns of the history of a solved case with steps, after every step;
- * `derivatives` as of rb_api_curve_derivatives, RESULT a column of the history.  Where the
+ * `derivatives` as of rb_api_curve, RESULT a column of the history.  Where the
  * two sides differ they are those for a growing input; then rb_api_note says so.  tolerance:
  * inputs as of rb_api_tolerances, for history.tolerance.NAME, computed in the same run over the
  * steps.  NULL: none of them. */
@@ -344,13 +339,11 @@ int rb_api_friction_sparse(rb_api *a, int dimension, int contacts, const int *p,
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
                          int max_iters);
 /* A sweep: solves n cases with `workers` processes (0: one per processor); the call
- * resolves each case.  If a case is refused, the call ends before anything is solved. */
-int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
-/* The same with derivatives of each case; `derivatives` as of rb_api_curve_derivatives, at
- * most 128 arrays.  For a growing input where the two sides differ, NAN: none.  tolerance:
- * uncertain inputs, as of rb_api_curve_derivatives; NULL: none, as derivatives. */
-int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
-                             const char *tolerance, int workers);
+ * resolves each case.  If a case is refused, the call ends before anything is solved.  derivatives
+ * of each case and uncertain inputs as of rb_api_curve, at most 128 arrays; NULL: none.  For a
+ * growing input where the two sides differ, NAN: none. */
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                 const char *tolerance, int workers);
 /* The same with a crack below each contact: handles for "crack", and the same m options
  * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,

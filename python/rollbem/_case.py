@@ -857,11 +857,8 @@ def curve(case: _CaseLike = None, start: float = 0.0, stop: float = 1.5,
     handle = case.handle("curve")
     range_ = (_values.word("over", over, "creep-ratio, creep or speed"), _values.number("start", start),
               _values.number("stop", stop), _values.whole("points", points))
-    if derivatives is None and tolerance is None:
-        status = handle.run("rb_api_curve_over", *range_, progress=progress)
-    else:
-        status = handle.run("rb_api_curve_derivatives", *range_, None if derivatives is None else _words(derivatives),
-                            None if tolerance is None else _uncertain(tolerance), progress=progress)
+    asked = [None if derivatives is None else _words(derivatives), None if tolerance is None else _uncertain(tolerance)]
+    status = handle.run("rb_api_curve", *range_, *asked, progress=progress)
     if status < SOLVED:
         raise handle.error(status)
     found = Curve(case, handle, over)
@@ -1040,16 +1037,14 @@ def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
     if not cases:
         raise refused[0][1]
     study = Handle("sweep")
-    if derivatives is not None or tolerance is not None:
-        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases),
-                           None if derivatives is None else _words(derivatives),
-                           None if tolerance is None else _uncertain(tolerance), workers, progress=progress)
-    elif cracks:
+    if cracks:
         names = texts([name.replace("_", "-") for name in cracks])
         status = study.run("rb_api_sweep_cracks", len(cases), handles(cases), len(cracks), names, texts(words), workers,
                            progress=progress)
     else:
-        status = study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress)
+        status = study.run("rb_api_sweep", len(cases), handles(cases),
+                           None if derivatives is None else _words(derivatives),
+                           None if tolerance is None else _uncertain(tolerance), workers, progress=progress)
     study.check(status)
     axes = {name: _numbers_of(name, values, combinations, at, cases) for name, values in axes.items()}
     found = Sweep(axes, study, cases[0].value("units"), at)

@@ -158,10 +158,10 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
         rb_api_stress_maxima(a, 0.0);
         break;
     case 9:
-        rb_api_curve(a, 0.0, 1.0, fuzz_choice(b, 4));
+        rb_api_curve(a, "creep-ratio", 0.0, 1.0, fuzz_choice(b, 4), NULL, NULL);
         break;
     case 10:
-        rb_api_curve_over(a, "creep", 0.0, fuzz_number(b), 2);
+        rb_api_curve(a, "creep", 0.0, fuzz_number(b), 2, NULL, NULL);
         break;
     case 11:
         rb_api_lcp(a, 2, M, q, fuzz_choice(b, 2) ? "lemke" : "newton", 0);
@@ -173,7 +173,7 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
         rb_api_stop(a);
         break;
     case 14:
-        rb_api_sweep(a, fuzz_choice(b, 2), cases, 1);
+        rb_api_sweep(a, fuzz_choice(b, 2), cases, NULL, NULL, 1);
         break;
     case 15:
         rb_api_variable(a, fuzz_byte(b) - 3, text, (int)sizeof text);
@@ -201,17 +201,17 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
             rb_api_tolerances(a, inputs);
             break;
         case 2:
-            rb_api_curve_derivatives(a, "creep-ratio", 0.0, 1.0, fuzz_choice(b, 4) - 1, results,
-                                     fuzz_choice(b, 2) ? inputs : NULL);
+            rb_api_curve(a, "creep-ratio", 0.0, 1.0, fuzz_choice(b, 4) - 1, results,
+                         fuzz_choice(b, 2) ? inputs : NULL);
             break;
         case 3:
-            rb_api_curve_derivatives(a, "creep", fuzz_number(b), 1e-3, 2, NULL, inputs);
+            rb_api_curve(a, "creep", fuzz_number(b), 1e-3, 2, NULL, inputs);
             break;
         case 4:
             rb_api_step_derivatives(a, results, NULL);
             break;
         case 5:
-            rb_api_sweep_derivatives(a, fuzz_choice(b, 2), cases, results, "mu=1%", 1);
+            rb_api_sweep(a, fuzz_choice(b, 2), cases, results, "mu=1%", 1);
             break;
         default:
             rb_api_derivative(a, fuzz_choice(b, 2) ? "curve" : "history", fuzz_byte(b) - 3, "name",

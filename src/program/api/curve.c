@@ -12,8 +12,8 @@ static rb_status count_point(const rb_rolling_model *model, int k, void *context
     return a->stopped ? rb_fail(why, RB_INTERRUPTED, "interrupted") : RB_OK;
 }
 
-int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
-                             const char *derivatives, const char *tolerance)
+int rb_api_curve(rb_api *a, const char *over, double from, double to, int points,
+                 const char *derivatives, const char *tolerance)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_choice *variable = rb_case_curve_variables;
@@ -79,14 +79,4 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
         s = rb_case_locate(a->words, s, &a->why);
     }
     return rb_api_ended(a, s);
-}
-
-int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
-{
-    return rb_api_curve_derivatives(a, over, from, to, points, NULL, NULL);
-}
-
-int rb_api_curve(rb_api *a, double from, double to, int points)
-{
-    return rb_api_curve_over(a, "creep-ratio", from, to, points);
 }

@@ -574,13 +574,8 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
     return rb_api_ended(a, s);
 }
 
-int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
-{
-    return sweep(a, n, cases, 0, NULL, NULL, NULL, NULL, workers);
-}
-
-int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
-                             const char *tolerance, int workers)
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                 const char *tolerance, int workers)
 {
     return sweep(a, n, cases, 0, NULL, NULL, derivatives, tolerance, workers);
 }
