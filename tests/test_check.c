@@ -1462,6 +1462,8 @@ TEST(every_edit_is_named)
     int wrong = 0;
     for (size_t k = 0; k < sizeof results / sizeof *results; k++) {
         char line[600];
+        if (!is_in_turn((int)k, 2))
+            continue;
         snprintf(line, sizeof line, "%s%s",
                  strstr(results[k].given, "--grid") || strstr(results[k].given, "--points")
                      ? "stress "

@@ -1,4 +1,4 @@
-/* Options times regimes: every pair of values of the factors below is run in 28 turns (every
+/* Options times regimes: every pair of values of the factors below is run in 40 turns (every
  * triple by make test-all) and judged by tests/checker.c, which shares no code with the
  * library. */
 #define _DEFAULT_SOURCE   /* MAP_ANONYMOUS */
@@ -1236,7 +1236,7 @@ typedef struct {
     int failures, failed_solves, proofs, unproved;
 } findings;
 
-enum { TURNS = 28 }; /* parts of the rows, one in each run */
+enum { TURNS = 40 }; /* parts of the rows, one in each run */
 
 static void work(int worker, int result)
 {

@@ -417,11 +417,18 @@ TEST(bonds_have_peel_shear_and_tension)
                  "--young 70GPa --poisson 0.17 --radius 100 --layer-thickness 0.15 --base-young "
                  "2.4GPa --base-poisson 0.37 --load 21.84 --contact-elements 200 --mesh fitted",
                  "bond_1_tension_above", 24.447, 0.5126, 1e-3, 2e-3}};
+    json_t *root = NULL;
+    int line_of = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         char line[700];
         snprintf(line, sizeof line, "stress --support halfplane --gap parabola %s --grid 2x2",
                  rows[k].line);
-        held_json *root = run_json(line);
+        if (k == 0 || strcmp(rows[k].line, rows[k - 1].line) != 0) {
+            json_decref(root);
+            root = is_in_turn(line_of++, 2) ? run_json(line) : NULL;
+        }
+        if (!root)
+            continue;
         const json_t *most = json_object_get(json_object_get(root, "maxima"), rows[k].name);
         const double p0 = number_in(json_object_get(root, "summary"), "max_pressure"),
                      value = number_in(most, "value");
@@ -433,6 +440,7 @@ TEST(bonds_have_peel_shear_and_tension)
             CHECK_ABS(number_in(most, "x"), rows[k].x, rows[k].x_tolerance * fabs(rows[k].x), "%s",
                       line);
     }
+    json_decref(root);
 }
 
 /* Its certificate; a rigid base has one side; without a bond there is nothing to tell; a cover has
