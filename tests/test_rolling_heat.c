@@ -107,6 +107,44 @@ TEST(heat_goes_with_the_body)
     CHECK_ABS(2.0 * carried, 2.0, 1e-10, "c V int T dy");
 }
 
+/* Elliptic heat, 1 W/mm, of steel that slides on aluminium or on a plastic, a = 1: the share of
+ * steel and the largest rise, by quadrature of another program. */
+TEST(shares_of_elliptic_heat)
+{
+    static const struct {
+        rb_rolling_heat b;
+        double speed, share, rise;
+    } known[] = {
+        {{200.0, 2.43, 0.0}, 1.0, .265218, 7.5514},   {{200.0, 2.43, 0.0}, 10.0, .315895, 4.5723},
+        {{200.0, 2.43, 0.0}, 100.0, .375319, 2.0490}, {{200.0, 2.43, 0.0}, 1000.0, .383646, .69378},
+        {{.31, 2.0, 0.0}, 1.0, .967210, 28.347},      {{.31, 2.0, 0.0}, 10.0, .950119, 14.625},
+        {{.31, 2.0, 0.0}, 100.0, .945856, 5.3780},    {{.31, 2.0, 0.0}, 1000.0, .945760, 1.7120}};
+    static const struct {
+        double x, depth, rise[2][2]; /* of A and B at V = 10 and 100 on aluminium */
+    } below[] = {{-.5, .1, {{4.15379, 4.21775}, {1.71116, 1.86068}}},
+                 {-.5, .5, {{3.27567, 3.61364}, {.70655, 1.29963}}},
+                 {-2.0, .2, {{2.55852, 2.79943}, {1.02377, 1.07275}}}};
+    rb_rolling_case rc = rolling_case("support halfplane gap parabola similar radius 1000 "
+                                      "half-width 1 mu 1e-4 formulation steady creep 1e-3 "
+                                      "mesh fitted contact-elements 200");
+    rc.heat_a = (rb_rolling_heat){50.0, 3.77, 0.0};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        rc.speed = known[k].speed;
+        rc.heat_b = known[k].b;
+        OWNED(rb_rolling_solution) s = solved(&rc);
+        const double heat = (s.heat_into_a + s.heat_into_b) / 1000.0; /* kW/m, W/mm */
+        CHECK_ABS(s.heat_share_a, known[k].share, 2e-4, "share, case %d", (int)k);
+        CHECK_REL(s.max_temperature / heat, known[k].rise, 1e-3, "rise, case %d", (int)k);
+        for (int j = 0; j < 6 && (k == 1 || k == 2); j++) {
+            const int i = j / 2, of_b = j % 2;
+            rb_rolling_stress at = {.x = below[i].x, .y = of_b ? -below[i].depth : below[i].depth};
+            CHECK_OK(rb_rolling_temperature_inside(&rc, &s, of_b, 1, &at, &message));
+            CHECK_REL(at.temperature / heat, below[i].rise[k - 1][of_b], 5e-4, "below, %d %d",
+                      (int)k, j);
+        }
+    }
+}
+
 /* Exchanged bodies: what was A's is B's, to rounding; the sum is the friction power. */
 TEST(each_body_has_its_heat)
 {

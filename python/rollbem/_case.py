@@ -381,13 +381,17 @@ class Solution(_Named):
         self.case, self._handle = case, handle
         self._more: dict = {}
         self.tolerances: "dict[str, float]" = {}  # standard deviations, of solve(tolerance=...)
+        self._tractions: "Optional[list]" = None  # x, p and q that stand in the place of a contact
 
     def __getstate__(self) -> dict:
-        return {"case": self.case, "_handle": self._handle, "_more": {}, "tolerances": self.tolerances}
+        return {"case": self.case, "_handle": self._handle, "_more": {}, "tolerances": self.tolerances,
+                "_tractions": self._tractions}
 
     def _live(self) -> Handle:
         """The library's handle; the case of a solution that was pickled is solved once more for it."""
-        if isinstance(self._handle, Kept):
+        if isinstance(self._handle, Kept) and self._tractions is not None:
+            self._handle = _given(self.case, np.column_stack(self._tractions))._handle
+        elif isinstance(self._handle, Kept):
             try:
                 self._handle = self.case._solve(self._handle.purpose)._handle
             except Unsolved as error:
@@ -918,8 +922,9 @@ def _given(case: Case, tractions: Any) -> Solution:
         raise InvalidInput("tractions=: expected x, p and q of as many places")
     x, p, q = [np.ascontiguousarray(column) for column in (*columns, np.zeros_like(columns[0]))[:3]]
     handle = case.handle("stress")
-    return handle.kept(Solution(case, handle),
-                       handle.run("rb_api_tractions", len(x), doubles(x), doubles(p), doubles(q)))
+    solution = Solution(case, handle)
+    solution._tractions = [x.copy(), p.copy(), q.copy()]
+    return handle.kept(solution, handle.run("rb_api_tractions", len(x), doubles(x), doubles(p), doubles(q)))
 
 
 def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (61, 41),

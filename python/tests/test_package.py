@@ -359,6 +359,16 @@ def test_results_are_copied(again):
         assert repr(other) == repr(answer) and np.array_equal(getattr(other, "z", None), getattr(answer, "z", None))
 
 
+def test_given_tractions_of_a_pickled_solution():
+    strip = {"x": [-1, -1, 1, 1], "p": [0, 100, 100, 0], "q": [0, 30, 30, 0]}
+    points = [[0, 0.5], [0.5, 0.25]]
+    stress = rollbem.stress(tractions=strip, young=2e5, poisson=0.3, points=points)
+    solution = pickle.loads(pickle.dumps(stress.solution))
+    assert solution.normal_load == stress.solution.normal_load == pytest.approx(200)
+    assert_same(rollbem.stress(solution, points=points), stress)
+    assert_same(rollbem.stress(pickle.loads(pickle.dumps(solution)), points=points, body="a"), stress)
+
+
 def test_matrices_of_a_pickled_solution():
     solution = rollbem.solve(creep=0.1, contact_elements=12, outer_elements=24)
     other = pickle.loads(pickle.dumps(solution))
