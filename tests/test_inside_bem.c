@@ -134,6 +134,38 @@ TEST(transforms_have_lengths_that_are_quick)
     }
 }
 
+/* Plans are kept from user to user, and shared; more of them than are kept work alike. */
+TEST(plans_are_kept)
+{
+    enum { MANY = 40 };
+    rb_fourier first, second, all[MANY];
+    assert_true(rb_fourier_make(100, &first));
+    assert_true(rb_fourier_make(99, &second));
+    assert_ptr_equal(first.forward, second.forward);
+    rb_fourier_free(&first);
+    assert_null(first.forward);
+    rb_fourier_free(&first); /* of nothing */
+    rb_fourier_free(&second);
+    assert_true(rb_fourier_make(100, &first));
+    for (int round = 0; round < 2; round++) {
+        for (int k = 0; k < MANY; k++)
+            assert_true(rb_fourier_make(60 * (k + 1), &all[k]));
+        for (int k = 0; k < MANY; k++) {
+            double *x = NOT_NULL(rb_fourier_alloc(&all[k]));
+            const double one[] = {0.0, 1.0};
+            fftw_complex *z = rb_fourier_forward(&all[k], 2, one, x);
+            for (int w = 0; w <= all[k].size / 2; w++) {
+                CHECK_ABS(z[w][0], cos(2.0 * M_PI * w / all[k].size), 1e-14, "wave %d", w);
+                CHECK_ABS(z[w][1], -sin(2.0 * M_PI * w / all[k].size), 1e-14, "wave %d", w);
+            }
+            fftw_free(x);
+        }
+        for (int k = 0; k < MANY; k++)
+            rb_fourier_free(&all[k]);
+    }
+    rb_fourier_free(&first);
+}
+
 /* There and back; and a transform against its sum, as it is written down. */
 TEST(transforms_are_their_sums)
 {

@@ -16,6 +16,93 @@ double *rb_fourier_alloc(const rb_fourier *f)
  * OpenMP, as threads of the caller meet here in a build without OpenMP, too. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
+/* A plan takes longer than the transforms of a small contact, so those of the last lengths are kept
+ * from case to case.  Many users share one: executing it changes nothing in it. */
+enum { KEPT = 16, KEPT_UP_TO = 1 << 15 };
+static struct {
+    rb_fourier f;
+    int users;
+    unsigned used; /* when, counted in calls */
+} kept[KEPT];
+static unsigned calls;
+
+/* 1: a plan of f's length is kept, and is f's now.  Within the planner's lock. */
+static int take_kept(rb_fourier *f)
+{
+    for (int k = 0; k < KEPT; k++)
+        if (kept[k].f.forward && kept[k].f.size == f->size) {
+            *f = kept[k].f;
+            kept[k].users++;
+            kept[k].used = ++calls;
+            return 1;
+        }
+    return 0;
+}
+
+static void destroy(rb_fourier *f)
+{
+    if (f->forward)
+        fftw_destroy_plan(f->forward);
+    if (f->backward)
+        fftw_destroy_plan(f->backward);
+    fftw_free(f->turn);
+    memset(f, 0, sizeof *f);
+}
+
+/* In the place of the one that has not been used for longest.  Within the planner's lock. */
+static void keep(const rb_fourier *f)
+{
+    int oldest = -1;
+
+    for (int k = 0; k < KEPT && f->size <= KEPT_UP_TO; k++)
+        if (kept[k].users == 0 && (oldest < 0 || kept[k].used < kept[oldest].used))
+            oldest = k;
+    if (oldest < 0)
+        return;
+    destroy(&kept[oldest].f);
+    kept[oldest].f = *f;
+    kept[oldest].users = 1;
+    kept[oldest].used = ++calls;
+}
+
+/* Where the program or the library ends. */
+__attribute__((destructor)) static void destroy_kept(void)
+{
+    pthread_mutex_lock(&planner);
+    for (int k = 0; k < KEPT; k++)
+        if (kept[k].users == 0)
+            destroy(&kept[k].f);
+    pthread_mutex_unlock(&planner);
+}
+
+/* Within the planner's lock.  0: out of memory. */
+static int plan(rb_fourier *f)
+{
+    const int half = f->size / 2;
+    fftw_complex *work = fftw_alloc_complex((size_t)half + 1);
+    static int prepared;
+
+    f->turn = fftw_alloc_complex((size_t)half / 2 + 1);
+    if (work && f->turn) {
+        if (!prepared)
+            prepared = fftw_init_threads();
+#ifdef _OPENMP
+        fftw_plan_with_nthreads(f->size >= RB_FOURIER_THREADS_FROM ? rb_blas_loop_threads() : 1);
+#endif
+        f->forward = fftw_plan_dft_1d(half, work, work, FFTW_FORWARD, FFTW_ESTIMATE);
+        f->backward = fftw_plan_dft_1d(half, work, work, FFTW_BACKWARD, FFTW_ESTIMATE);
+        for (int k = 0; k <= half / 2; k++) {
+            f->turn[k][0] = cos(M_PI * k / half);
+            f->turn[k][1] = -sin(M_PI * k / half);
+        }
+    }
+    fftw_free(work);
+    if (f->forward && f->backward)
+        return 1;
+    destroy(f);
+    return 0;
+}
+
 int rb_fourier_make(int least, rb_fourier *f)
 {
     static const int primes[] = {2, 3, 5};
@@ -28,43 +115,29 @@ int rb_fourier_make(int least, rb_fourier *f)
             while (rest % primes[k] == 0)
                 rest /= primes[k];
     }
-    const int half = f->size / 2;
-    fftw_complex *work = fftw_alloc_complex((size_t)half + 1);
-
-    f->turn = fftw_alloc_complex((size_t)half / 2 + 1);
-    if (work && f->turn) {
-        pthread_mutex_lock(&planner);
-        static int prepared;
-
-        if (!prepared)
-            prepared = fftw_init_threads();
-#ifdef _OPENMP
-        fftw_plan_with_nthreads(f->size >= RB_FOURIER_THREADS_FROM ? rb_blas_loop_threads() : 1);
-#endif
-        f->forward = fftw_plan_dft_1d(half, work, work, FFTW_FORWARD, FFTW_ESTIMATE);
-        f->backward = fftw_plan_dft_1d(half, work, work, FFTW_BACKWARD, FFTW_ESTIMATE);
-        pthread_mutex_unlock(&planner);
-        for (int k = 0; k <= half / 2; k++) {
-            f->turn[k][0] = cos(M_PI * k / half);
-            f->turn[k][1] = -sin(M_PI * k / half);
-        }
-    }
-    fftw_free(work);
-    if (f->forward && f->backward)
-        return 1;
-    rb_fourier_free(f);
-    return 0;
+    pthread_mutex_lock(&planner);
+    int made = take_kept(f);
+    if (!made && (made = plan(f)))
+        keep(f);
+    pthread_mutex_unlock(&planner);
+    return made;
 }
 
 void rb_fourier_free(rb_fourier *f)
 {
+    int is_kept = 0;
+
+    if (!f->forward)
+        return;
     pthread_mutex_lock(&planner);
-    if (f->forward)
-        fftw_destroy_plan(f->forward);
-    if (f->backward)
-        fftw_destroy_plan(f->backward);
+    for (int k = 0; k < KEPT && !is_kept; k++)
+        if (kept[k].f.forward == f->forward) {
+            kept[k].users--;
+            is_kept = 1;
+        }
+    if (!is_kept)
+        destroy(f);
     pthread_mutex_unlock(&planner);
-    fftw_free(f->turn);
     memset(f, 0, sizeof *f);
 }
 
