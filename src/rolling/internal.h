@@ -237,6 +237,11 @@ rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far
                                  const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
                                  rb_message *why);
 
+/* ---- model.c ----------------------------------------------------------------------- */
+
+/* 1: the last solve has taken all the steps that strong coupling has without a matrix. */
+int rb_rolling_gave_up(const rb_rolling_model *model);
+
 /* ---- fit.c ------------------------------------------------------------------------- */
 
 /* From the edges of another solution with the same wheels to elements fitted to the edges of the

@@ -131,6 +131,11 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
     return meet_ratio(model, rb_rolling_model_resolve(model, 1, why), why);
 }
 
+int rb_rolling_gave_up(const rb_rolling_model *model)
+{
+    return model->problem.step_limit > 0 && model->state.status > 0;
+}
+
 /* Zones and tractions of a large contact, from fewer elements over the same line. */
 static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
 {
@@ -154,8 +159,14 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     }
     model->iterations += coarse.iterations;
     model->state.refused_at = coarse.state.refused_at;
+    /* more elements would be given up, too */
+    const int gave_up = s != RB_ZONE && rb_rolling_gave_up(&coarse);
+    if (gave_up) {
+        model->problem.step_limit = coarse.problem.step_limit;
+        model->state.status = s;
+    }
     rb_rolling_model_free(&coarse);
-    return s < 0 ? s : RB_OK;
+    return s < 0 || gave_up ? s : RB_OK;
 }
 
 /* Bodies, where they are not kept, contact problem and a state of zeros on the model's

@@ -370,7 +370,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         s = equal_elements(model, zone, elements, &mesh, why);
         if (s == RB_OK)
             s = rb_rolling_model_build(model, &mesh, why);
-        if (s < 0 || !model->state.p)
+        if (s < 0 || !model->state.p || (s != RB_ZONE && rb_rolling_gave_up(model)))
             return s;
         const rb_status t = grown(model, zone, &wider);
         if (t != RB_OK)
