@@ -1,7 +1,7 @@
 #define _DEFAULT_SOURCE /* wait4 */
 /* Whole processes of the program, processor time and elapsed time, medians of turns: with the
  * threads that OpenMP takes by itself and with one; CONTACT's input file beside the same elements
- * by options; with the table of all elements and without.  B: the build directory. */
+ * by options.  B: the build directory. */
 #include "rows.h"
 
 #include <gsl/gsl_sort.h>
@@ -135,27 +135,10 @@ static void contact_beside_options(void)
         snprintf(
             options, sizeof options,
             "--support halfplane --similar --half-width 1 --formulation steady --creep-ratio .4 "
-            "--mesh uniform --contact-elements %d --format brief",
+            "--mesh uniform --contact-elements %d",
             n);
         compare("CONTACT's input file beside options", n, file, options);
         unlink(path);
-    }
-}
-
-static void table_beside_none(void)
-{
-    static const int elements[] = {1000, 10000, 100000};
-
-    printf("\n| | elements | with the table | without | ratio |\n|---|---|---|---|---|\n");
-    for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
-        char with[200], without[250];
-        snprintf(
-            with, sizeof with,
-            "--support halfplane --similar --half-width 1 --formulation steady --creep-ratio .4 "
-            "--mesh uniform --contact-elements %d",
-            elements[k]);
-        snprintf(without, sizeof without, "%s --format brief", with);
-        compare("table of all elements", elements[k], with, without);
     }
 }
 
@@ -164,6 +147,5 @@ int main(void)
     snprintf(program, sizeof program, "%s/rollbem", getenv("B") ? getenv("B") : "build");
     threads_beside_one();
     contact_beside_options();
-    table_beside_none();
     return 0;
 }
