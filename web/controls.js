@@ -1,6 +1,6 @@
 /* The panel of the workbench: sliders with exact fields, what is held, and every option of the table. */
 import { html, segments } from "./draw.js";
-import { slider_for } from "./knob.js";
+import { show_on, slider_for } from "./knob.js";
 import {
     ALL_TANGENTIAL,
     NORMAL,
@@ -116,7 +116,7 @@ export function controls(host, words, page) {
         knobs.push(() => {
             if (document.activeElement !== text) text.value = typed(name);
             if (name === "poisson") slider.max = has_elastic_core() ? COMPRESSIBLE : to;
-            if (document.activeElement !== slider || !store.holding) slider.value = up(read(name));
+            if (document.activeElement !== slider || !store.holding) show_on(slider, up(read(name)));
             slider.setAttribute("aria-valuetext", `${typed(name)} ${unit}`);
         });
         return html(

@@ -194,7 +194,9 @@ export function hero_view(words, page) {
         page.change(hold(given, ALL_TANGENTIAL, "creep-ratio", round(to)));
     }
     function set_load(value) {
-        page.change(hold(page.given, NORMAL, "load", String(Number(Math.max(1, Math.min(1e5, value)).toPrecision(3)))));
+        /* of what was solved first nine digits: its rounding must not decide the third one */
+        const exact = Number(Math.max(1, Math.min(1e5, value)).toPrecision(9));
+        page.change(hold(page.given, NORMAL, "load", String(Number(exact.toPrecision(3)))));
     }
     const round = (x) => String(Number(x.toFixed(Math.abs(x) < 0.01 ? 6 : 3)));
 

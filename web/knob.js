@@ -5,16 +5,23 @@ import { with_point } from "./state.js";
 const KEYS_REST = 500; /* ms after which keys are taken to rest */
 
 /* A slider that a hand takes hold of: states on the way are one step for undo, and a finger that scrolls the page
- * over it leaves it as it was.  move(value) on the way. */
+ * over it leaves it as it was.  move(value) on the way.  The knob may stand beside the value that is shown, on the
+ * nearest of its steps: show_on keeps that value too. */
+export function show_on(slider, value) {
+    slider.value = value;
+    slider.dataset.shown = value;
+}
 export function slider_for(store, attributes, move) {
     const slider = html("input", { type: "range", ...attributes });
     let before = null,
+        shown = null,
         down = false,
         timer = null;
     slider.addEventListener(
         "pointerdown",
         () => {
             before = slider.value;
+            shown = slider.dataset.shown ?? before;
             down = true;
             store.hold();
         },
@@ -23,7 +30,7 @@ export function slider_for(store, attributes, move) {
     slider.addEventListener("pointercancel", () => {
         if (before !== null && slider.value !== before) {
             slider.value = before;
-            move(Number(before));
+            move(Number(shown));
         }
         release();
     });
@@ -93,7 +100,7 @@ export function make_knob(
         const value = read(answer),
             shown = Number.isFinite(value) ? value : 0;
         if (document.activeElement !== slider || !store.holding)
-            slider.value = up(Math.max(log ? from : -Infinity, shown));
+            show_on(slider, up(Math.max(log ? from : -Infinity, shown)));
         if (document.activeElement !== field)
             field.value = String(Number((Math.abs(shown) < 1e-12 ? 0 : shown).toPrecision(4)));
         slider.setAttribute("aria-valuetext", text ? text(shown) : `${show(shown)} ${unit}`);

@@ -875,7 +875,10 @@ async function views(page) {
             (await other.run(`document.querySelector("#chapters [aria-current=true]").dataset.view`)) === "step",
             "another chapter is marked",
         );
-        check(/that is 81 combinations/.test(await other.run("document.getElementById('at-step').textContent")), "not 81");
+        check(
+            /that is 81 combinations/.test(await other.run("document.getElementById('at-step').textContent")),
+            "not 81",
+        );
         await other.close();
     });
     await test("Step through takes the elements of the case where they are few, else those of its slider", async () => {
