@@ -68,7 +68,7 @@ help:
 	@echo "make run        install missing packages, build, solve and print a wheel on a rail"
 	@echo "make test       install missing packages, build, run all tests; T=rolling_wheel: that one"
 	@echo "                T=rolling_wheel NAME=a_test: that function; ROLLBEM_TEST_TURN=N: which rows of long tests"
-	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/reliability.md"
+	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/validation.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
 	@echo "make fuzz       libFuzzer on every target of tools/fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
@@ -115,7 +115,7 @@ some-tests: all $(T:%=$(B)/tests/test_%)
 	@$(if $(NAME),B=$(B) CMOCKA_MESSAGE_OUTPUT=STDOUT $(T:%=$(B)/tests/test_%) '$(NAME)',B=$(B) ROLLBEM_TEST_VERBOSE=1 tests/run $(T:%=$(B)/tests/test_%))
 
 # tests with more cases than a minute allows run a part of them unless this variable is set; then
-# the campaigns of docs/reliability.md in sizes that fit into an hour
+# the campaigns of docs/validation.md in sizes that fit into an hour
 test-all:
 	@ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 	@$(MAKE) --no-print-directory B=$(B) hostile N=2000
@@ -344,7 +344,7 @@ endurance: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/endurance
 	@tools/scripts/endurance $(B) --kills $(KILLS) --cases $(CASES) --solves $(SOLVES)
 
-# compilers, optimisation, BLAS, threads: the list in docs/reliability.md
+# compilers, optimisation, BLAS, threads: the list in docs/validation.md
 platforms: packages ; @tools/scripts/platforms $(B) $(PLATFORMS)
 
 # static analysis of src/

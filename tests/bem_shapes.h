@@ -94,7 +94,7 @@ static inline double order(double coarse, double fine)
     return log2(coarse / fine);
 }
 
-/* What docs/bem.md says of three meshes, each so many times as fine as the one before:
+/* What docs/library.md says of three meshes, each so many times as fine as the one before:
  * tests/formula/figures.py reads it. */
 static inline void print_errors(const char *what, double coarse, double fine, double finest,
                                 double finer)

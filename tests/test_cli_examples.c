@@ -136,25 +136,18 @@ TEST(blocks_of_the_readme_print_what_it_shows)
 
 TEST(commands_of_the_cookbook_run)
 {
-    if (!is_in_turn(0, 3))
+    if (!is_in_turn(0, 2))
         skip();
-    assert_int_equal(run_page("docs/rolling-cookbook.md", 12, folder), 0);
+    assert_int_equal(run_page("docs/cookbook.md", 20, folder), 0);
     assert_int_equal(run("test -s %s/states/step_000050.tsv", folder), 0);
     assert_int_equal(run("test -s %s/fringes.png", folder), 0);
-}
-
-TEST(commands_of_the_rolls_run)
-{
-    if (!is_in_turn(1, 3))
-        skip();
-    assert_int_equal(run_page("docs/rolls.md", 8, folder), 0);
     assert_int_equal(run("test -s %s/nip.png", folder), 0);
     assert_int_equal(run("test -s %s/resistance.png", folder), 0);
 }
 
 TEST(commands_of_the_cracks_run)
 {
-    if (!is_in_turn(2, 3))
+    if (!is_in_turn(1, 2))
         skip();
     assert_int_equal(run_page("docs/crack.md", 2, folder), 0);
     assert_int_equal(run("test -s %s/crack.png", folder), 0);

@@ -1,4 +1,4 @@
-/* The layers of docs/architecture.md: a folder of src/, or examples/fem, includes public headers of
+/* The layers of docs/contributing.md: a folder of src/, or examples/fem, includes public headers of
  * folders below it and its own private ones, and its files call each other in no circle.  Tests
  * include public headers, unless their program is marked.  Run from the project's root. */
 #include "check.h"

@@ -1,6 +1,6 @@
 /* Finite cylinders by boundary elements: they tend to the half-plane as a/R falls, in
  * both supports; where they differ from it; the case of *Addi* (theory.md 4.3, 6, 7).
- * The measured figures stand in docs/rolling.md. */
+ * The measured figures stand in docs/library.md. */
 #include "cases.h"
 #include "rolling/case/closed_forms.h"
 #include "rolling/rolling.h"

@@ -1,5 +1,5 @@
 /* Cases, LCPs and friction problems solved in four threads at once give the bytes that
- * they give one after another (docs/threads.md). */
+ * they give one after another (docs/library.md). */
 #include "check.h"
 #include "base/blas.h"
 #include "rolling/case/case.h"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Table and picture of docs/finite-wheel.md, by the program alone:
+# Table and picture of docs/cookbook.md, by the program alone:
 #     docs/finite-wheel/run.sh build/rollbem
 set -eu
 rollbem=${1:-build/rollbem}

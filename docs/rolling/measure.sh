@@ -1,5 +1,5 @@
 #!/bin/sh
-# The rows of the measured tables of docs/rolling.md, by the program alone:
+# The rows of the measured tables of docs/library.md, by the program alone:
 #     docs/rolling/measure.sh build/rollbem [supports|meshes|signs|balance|normals|paper|small ...]
 set -eu
 rollbem=${1:-build/rollbem}

@@ -287,7 +287,7 @@ def tag_V1_V5():
 
 def tag_conventions():  # what a half-plane remembers of loads that have passed
     d, L, P, compliance = 1000.0, 2000.0, 600.0, 2*(1 - 0.16)/(2*1143*1.4)  # CONTACT's visc_cylindr
-    rows = [printed("supports.md", text).split("|") for text in (
+    rows = [printed("getting-started.md", text).split("|") for text in (
         "ln(sqrt(r^2 + d^2)/r): positive, decreasing | 1.43536", "asinh(d/(2r)): a strip of width d of a half-space that rests far away | 1.45465",
         "ln(d/r), as in the elastic displacement | negative beyond d: under a given load the approach would fall without bound as the speed grows | 1.30047")]
     def remembered(text):

@@ -246,13 +246,13 @@ def untested(page, text):
 
 
 def unlisted(page, text):
-    """Letters of displayed formulas that docs/symbols.md does not have."""
-    listed = " ".join(row.split("|")[1] for row in re.findall(r"^\|.*", open("docs/symbols.md").read(), re.M))
+    """Letters of displayed formulas that docs/glossary.md does not have."""
+    listed = " ".join(row.split("|")[1] for row in re.findall(r"^\|.*", open("docs/glossary.md").read().partition("## Symbols")[2], re.M))
     for formula in re.findall(r"```math\n(.*?)```", text, re.S):
         formula = re.sub(r"\\(?:text|operatorname|mathrm|begin|end|var(?=epsilon))(?:\{[^}]*\})?", r" \\ ", formula).replace("\\ epsilon", r"\epsilon")
         for greek, letter in re.findall(rf"\\({GREEK})\b|(?<![\\A-Za-z_{{])([A-Za-z])(?![A-Za-z])", formula):
             if not re.search(rf"(?<![A-Za-z]){greek or letter}(?![A-Za-z])", listed):
-                yield f"docs/symbols.md does not have {greek or letter}"
+                yield f"docs/glossary.md does not have {greek or letter}"
 
 
 def broken_courses(text):

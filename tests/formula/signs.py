@@ -20,14 +20,14 @@ def says(command, text):
 
 def tag_braked():
     """xi > 0: A slides towards +x, is pulled to -x, and its axle brakes while that of B drives."""
-    printed("rolling-cookbook.md", "Creepage xi > 0 means a braked wheel: the friction on the wheel points to -x, and Q < 0")
+    printed("cookbook.md", "Creepage xi > 0 means a braked wheel: the friction on the wheel points to -x, and Q < 0")
     printed("getting-started.md", "Creepage > 0 means a braked wheel: the friction on A points to -x, and Q")
     printed("faq.md", "At xi > 0 the wheel A is braked: the surface of A slides towards +x over the ground, the friction on A points to -x, and Q < 0")
     printed("theory.md", "xi > 0: A's surface slides towards +x over B, a braked wheel")
     printed("derivatives.md", "a braked wheel has xi > 0 and Q < 0")
     printed("contact.md", "CKSI < 0 is a driven wheel, with FX > 0")
     printed("glossary.md", "braked: `--creep` > 0, the friction on A points backwards, Q < 0; driven (tractive): `--creep` < 0, Q > 0")
-    printed("report.md", "> 0 where an axle drives in the direction in which its body rolls, < 0 where it brakes")
+    printed("tables.md", "> 0 where an axle drives in the direction in which its body rolls, < 0 where it brakes")
     printed("course/kinematics.md", "The wheel that drives turns faster than it rolls, whichever of the two it is")
     printed("course/kinematics.md", "The first one brakes (xi > 0, Q < 0), the second one rolls freely, the third one drives")
     says("--help", "A's surface slides towards +x over the ground (a braked wheel) and the friction q on A points to -x, Q < 0")
@@ -42,8 +42,8 @@ def tag_braked():
 
 def tag_force():
     """The friction on A drives or brakes; a roll that the other one drives has a torque below zero."""
-    printed("rolls.md", "an axle drives if its torque is > 0. The next command gives the force as a part of mu P; with Q < 0 the roll B drives A")
-    printed("rolls.md", "it is braked where xi exceeds the creepage of free rolling")
+    printed("cookbook.md", "an axle drives if its torque is > 0. The next command gives the force as a part of mu P; with Q < 0 the roll B drives A")
+    printed("cookbook.md", "it is braked where xi exceeds the creepage of free rolling")
     says("--help", "Q and --force are the friction on A")
     assert rolls(force=-100)[1:] == (1, -1, -1, 1) and rolls(force=100)[1:] == (-1, 1, 1, -1)
     roll = [rollbem.solve("examples/roll/case.ini", force=f) for f in (-1, 0, 1)]
@@ -53,8 +53,8 @@ def tag_force():
 
 def tag_bond():
     """Torques of a covered roll, and what pulls at its bond, with the radius of the bond."""
-    torques = printed("rolls.md", "`torque_a` = M + Q R_A and `torque_b` = M - Q R_B").replace("`", "").split(" and ")
-    slope, tension, shear = (printed("rolls.md", text) for text in ("t = x/138", "its tension is syy - 2 t sxy", "its shear sxy + t (syy - sxx)"))
+    torques = printed("cookbook.md", "`torque_a` = M + Q R_A and `torque_b` = M - Q R_B").replace("`", "").split(" and ")
+    slope, tension, shear = (printed("cookbook.md", text) for text in ("t = x/138", "its tension is syy - 2 t sxy", "its shear sxy + t (syy - sxx)"))
     case = rollbem.Case("examples/roll/case.ini", force_ratio=-0.3)
     s = rollbem.solve(case)
     for text, torque, R in zip(torques, (s.torque_a, s.torque_b), (150, 100)):
@@ -74,7 +74,7 @@ def tag_bond():
 
 def tag_speeds():
     """V (1 - xi/2) and V (1 + xi/2): the surface of the slower roll passes the contact slower."""
-    printed("rolls.md", "xi > 0 means that A is the slower one: its surface passes the nip at V (1 - xi/2), that of B at V (1 + xi/2)")
+    printed("cookbook.md", "xi > 0 means that A is the slower one: its surface passes the nip at V (1 - xi/2), that of B at V (1 + xi/2)")
     printed("faq.md", "V (1 - xi/2) and V (1 + xi/2): a locked wheel has xi = 2, and V is half its forward speed")
     printed("glossary.md", "a faster A has xi < 0")
     V, xi = 2.0, 0.3
@@ -89,8 +89,8 @@ def tag_free():
     printed("theory-solvers.md", "With the softer cylinder as A, xi < 0")
     printed("course/08-bodies.md", "The wheel of the softer material turns faster: xi < 0")
     printed("course/solutions/08-bodies.md", "now the harder wheel is A, and it turns slower")
-    printed("finite-wheel.md", "xi0 > 0: without any force the wheel turns as a braked wheel would on half-planes")
-    printed("rolls.md", "xi = 0.0373, that is, the surface is 3.7 % faster in the nip than outside it")
+    printed("cookbook.md", "xi0 > 0: without any force the wheel turns as a braked wheel would on half-planes")
+    printed("cookbook.md", "xi = 0.0373, that is, the surface is 3.7 % faster in the nip than outside it")
     soft, steel = dict(young=60260, poisson=0.31), dict(young=209920, poisson=0.28)
     pair = dict(support="halfplane", gap="parabola", radius=50, radius_b=50, load=500, mu=0.3, formulation="steady", force=0)
     own = lambda of: {f"{name}_b": x for name, x in of.items()}
@@ -99,8 +99,8 @@ def tag_free():
                          formulation="steady", creep=0.001).free_creepage > 0
     roll = lambda **options: rollbem.solve("examples/roll/case.ini", force=0, **options).free_creepage
     assert abs(roll() - 0.0373) < 5e-5
-    printed("rolls.md", "Compressible covers (foam) do the opposite, here below nu = 0.29")
-    printed("rolls.md", "nu = 0.41 at 2 N/mm")
+    printed("cookbook.md", "Compressible covers (foam) do the opposite, here below nu = 0.29")
+    printed("cookbook.md", "nu = 0.41 at 2 N/mm")
     assert roll(poisson=0.285) < 0 < roll(poisson=0.295) and roll(poisson=0.405, load=2) < 0 < roll(poisson=0.415, load=2)
 
 

@@ -19,7 +19,8 @@ function finish() {
         entry("QUESTION", question, answer)
     question = ""
 }
-FILENAME ~ /glossary/ && /^\| / && !/^\| word / {
+FILENAME ~ /glossary/ && /^## Symbols/ { symbols = 1 }
+FILENAME ~ /glossary/ && !symbols && /^\| / && !/^\| word / {
     split($0, cell, / \| |^\| | \|$/)
     entry("WORD", cell[2], cell[3])
     next

@@ -1,4 +1,4 @@
-/* Writes solutions as tables, JSON, summaries and pictures.  Formats: docs/report.md.
+/* Writes solutions as tables, JSON, summaries and pictures.  Formats: docs/tables.md.
  * Numbers that are read back are exactly those that were computed: tables have the fewest
  * digits for this, JSON has 17. */
 #ifndef ROLLBEM_REPORT_H
@@ -447,7 +447,7 @@ rb_status rb_report_prony_picture(FILE *out, rb_report_canvas canvas, const rb_r
  * folder: contact, mesh, H, G (of body A; with _b of body B; none for half-planes), F, M,
  * b and the scales of the LCP.  For a large contact, which has no matrices F and M, four
  * columns of F are written.  The folder is made if necessary, files of an older dump are
- * removed, and either all files are written or none.  docs/report.md describes each file.
+ * removed, and either all files are written or none.  docs/tables.md describes each file.
  * RB_EWRITE, RB_ENOMEM. */
 rb_status rb_report_dump(const char *folder, const rb_rolling_model *model, rb_message *why);
 

@@ -410,8 +410,8 @@ static void on_smooth_base(rb_verify *v)
                        "layer on a smooth base: p0");
 }
 
-/* Moduli of hardnesses as published (docs/rolls.md): the relations of 60 ShoreA, and ISO 48's law
- * at 100 P&J. */
+/* Moduli of hardnesses as published (docs/cookbook.md): the relations of 60 ShoreA, and ISO 48's
+ * law at 100 P&J. */
 static void hardness(rb_verify *v)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* Young's modulus of rubber by its hardness (docs/rolls.md). */
+/* Young's modulus of rubber by its hardness (docs/cookbook.md). */
 #include "rolling/case/rubber.h"
 
 #include <gsl/gsl_math.h>

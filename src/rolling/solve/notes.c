@@ -143,7 +143,7 @@ static int thin_and_strained(const rb_rolling_case *rc, const rb_rolling_solutio
 /* A cover of radius R under P rolls freely at a creepage above that of the flat layer by
  * k P/(E R): k follows nu, and friction that lets the surface slide everywhere makes it
  * twice as large as one that holds it.  Measured on covers of t/R = 0.01 to 0.2 with a/t =
- * 0.6 to 3.5 (docs/rolls.md). */
+ * 0.6 to 3.5 (docs/cookbook.md). */
 static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     static const double thick = 0.01, held = 0.45, free_to_slide = 1.25;
