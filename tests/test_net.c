@@ -55,12 +55,14 @@ typedef struct {
     const char *name, *arguments;
 } level;
 
+enum { LEVELS = 40 };
+
 /* option: the choices of that option are levels, behind those named here.  Where the
  * arguments depend on other factors (controls, histories, shapes), case_arguments() makes
  * them. */
 static const struct {
     const char *name, *option;
-    level level[24];
+    level level[LEVELS]; /* behind the last one: no name */
 } factors[FACTORS] = {
     {"plane", "plane", {{NULL, NULL}}},
     {"support", "support", {{NULL, NULL}}},
@@ -201,7 +203,6 @@ static const char options_elsewhere[] =
     " bulk-stress bulk-stress-b tilt moment wheel-load strips layer-base layer-base-b"
     " transverse-radius transverse-radius-b period amplitude fretting cycle ";
 
-enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
 static int level_n[FACTORS];
 
@@ -233,7 +234,7 @@ static void add_choices(int f)
 static void set_levels(void)
 {
     for (int f = 0; f < FACTORS; f++) {
-        for (const level *l = factors[f].level; l->name; l++)
+        for (const level *l = factors[f].level; l < factors[f].level + LEVELS && l->name; l++)
             add_level(f, l->name, l->arguments);
         if (factors[f].option)
             add_choices(f);

@@ -140,6 +140,36 @@ TEST(unloading_follows_mindlin_and_deresiewicz)
     release(&model, &h);
 }
 
+/* Load and force go to and fro: every second state is the one before the last, in which elements are
+ * undecided between stick and slip, and on 60 elements Newton's method and Lemke's fail on the force;
+ * the shift that has this force is found then. */
+TEST(states_that_return_exactly_are_solved)
+{
+    const double load[] = {10.1067, 14.4382, 10.1067, 14.4382, 10.1067};
+    const double force[] = {-0.82759, 0.58121, -0.82759, 0.58121, -0.82759};
+    const rb_rolling_program program = {.n = 5, .load = load, .force = force};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.young = rc.b.young = 66785.5;
+    rc.a.poisson = rc.b.poisson = 0.4028;
+    rc.a.radius = 29.517;
+    rc.mu = 0.172;
+    rc.elastic_b = 1;
+    rc.increments = 1;
+    for (rc.contact_elements = 56; rc.contact_elements <= 64; rc.contact_elements += 4) {
+        rb_rolling_model model;
+        rb_rolling_history h;
+        run(&rc, &program, &model, &h);
+        assert_int_equal(h.n, 5);
+        for (int k = 0; k < 5; k++) {
+            CHECK_MAX(h.residual[k], 1e-10, "%d elements, row %d", rc.contact_elements, k + 1);
+            CHECK_REL(h.tangential_load[k], force[k], 1e-10, "row %d", k + 1);
+        }
+        for (int k = 2; k < 5; k++)
+            CHECK_REL(h.shift[k], h.shift[k - 2], 1e-8, "shift of row %d", k + 1);
+        release(&model, &h);
+    }
+}
+
 /* The shift that a given force causes, given back as a shift, causes that force. */
 TEST(shift_and_force_are_two_sides_of_one_history)
 {

@@ -2,6 +2,7 @@
 #include "lcp/contact/internal.h"
 #include "base/sizes.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -619,6 +620,48 @@ static rb_status solve_cone(rb_contact_problem *problem, const rb_contact_option
     return checked == RB_OK || s == RB_OK ? checked : s;
 }
 
+/* A given force that all methods fail on, as where a contact returns to the state of an earlier
+ * step and elements are undecided between stick and slip.  Q falls where xi grows: xi by bisection,
+ * where Newton's method knows xi, and from each of these solutions Newton's steps for the force
+ * itself. */
+static rb_status solve_by_creepage(rb_contact_problem *problem, const rb_contact_options *options,
+                                   rb_contact_state *state)
+{
+    enum { HALVINGS = 50 };
+    const size_t n = (size_t)problem->n;
+    rb_contact_problem given = *problem; /* arrays stay the problem's */
+    double *row = rb_alloc(n, 2), reach = problem->sliding;
+    rb_contact_state known;
+    rb_status s = rb_contact_state_alloc(problem->n, &known);
+
+    if (s == RB_OK && !row)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        /* Beyond this creepage, or shift, all slides, also where earlier steps have left some. */
+        for (size_t i = 0; i < n; i++)
+            reach = fmax(reach, problem->sliding + fabs(problem->d_T[i] / problem->e_T[i]));
+        double low = -reach, high = reach;
+        given.force_given = 0;
+        rb_contact_force_row(problem, row, row + n);
+        s = RB_MAXITER;
+        for (int k = 0; k < HALVINGS && s > 0 && rb_contact_has_steps_left(problem, &known); k++) {
+            given.xi = 0.5 * (low + high);
+            s = solve_given(&given, options, k > 0, &known, NULL);
+            if (s != RB_OK)
+                break;
+            const double force = cblas_ddot(problem->n, row, 1, known.p, 1) +
+                                 cblas_ddot(problem->n, row + n, 1, known.q, 1);
+            *(force > problem->force ? &low : &high) = given.xi;
+            rb_contact_copy_start(&known, state);
+            s = proven(solve_newton(problem, options, 1, state), problem, options, state);
+        }
+        state->iterations += known.iterations;
+    }
+    rb_contact_state_free(&known);
+    free(row);
+    return s;
+}
+
 rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options, int warm,
                            rb_contact_state *state, rb_message *why)
 {
@@ -633,6 +676,11 @@ rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options
         const rb_status t = check_capacity(problem, options, state, why);
         if (t < 0)
             return t;
+    }
+    if (s > 0 && problem->force_given && options->solver != RB_SOLVER_CONE && !problem->yield &&
+        !rb_contact_slides_fully(problem)) {
+        const rb_status t = solve_by_creepage(problem, options, state);
+        s = t <= 0 ? t : s;
     }
     if (s > 0)
         rb_fail(why, s, "%s; scaled residual %.3g", rb_status_text(s), state->residual);
