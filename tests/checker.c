@@ -70,7 +70,7 @@ typedef struct {
     double young, poisson, radius, datum;
     int halfplane;
     int layers;
-    double *layer;                   /* layers x thickness, young, poisson */
+    double *layer;                   /* layers x thickness, young, poisson; owned */
     double base_young, base_poisson; /* below them; base_young = 0: rigid */
 } body;
 
@@ -1625,8 +1625,10 @@ static void check_stress(const json_t *root, const json_t *at)
     const int disc = strcmp(word(inputs, "plane"), "stress") == 0;
     const int of_b = strcmp(word(root, "body"), "b") == 0;
     body b = body_of(inputs, of_b ? "-b" : "");
-    if (of_b && b.young == 0.0) /* --similar */
+    if (of_b && b.young == 0.0) { /* --similar */
+        free(b.layer);
         b = body_of(inputs, "");
+    }
     for (size_t i = 0; i < json_array_size(json_object_get(at, "x_mm")); i++) {
         const double xx = entry(at, "sxx_MPa", i), yy = entry(at, "syy_MPa", i);
         const double zz = entry(at, "szz_MPa", i), xy = entry(at, "sxy_MPa", i);
@@ -1649,6 +1651,7 @@ static void check_stress(const json_t *root, const json_t *at)
         expect("hydrostatic", entry(at, "hydrostatic_MPa", i), third, tol);
         expect("von_mises", entry(at, "von_mises_MPa", i), mises, tol);
     }
+    free(b.layer);
 }
 
 /* ---- All together ------------------------------------------------------------------ */
@@ -1693,6 +1696,8 @@ static void check_case(const json_t *root, const char *table_path, const char *s
         check_summary(&c, summary_path);
     table_free(&t);
     free(c.mu_of);
+    free(c.a.layer);
+    free(c.b.layer);
 }
 
 int main(int argc, char **argv)
