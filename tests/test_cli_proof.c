@@ -25,6 +25,7 @@ static const char *options_of(const char *record, char text[MAX_TEXT])
  * are none that the command below solves. */
 TEST(recorded_results_are_proved)
 {
+    const char *build = getenv("B") ? getenv("B") : "build";
     glob_t records;
     static char text[MAX_TEXT];
     int proved = 0, tried = 0, refused = 0;
@@ -36,16 +37,16 @@ TEST(recorded_results_are_proved)
         const char *options = options_of(records.gl_pathv[k], text);
         if (!*options || !is_in_turn((int)k, PARTS) || strstr(options, "--cite"))
             continue;
-        const int code = run("build/rollbem %s --json --prove --output %s/j.json >%s/out 2>%s/err",
-                             options, folder, folder, folder);
+        const int code = run("%s/rollbem %s --json --prove --output %s/j.json >%s/out 2>%s/err",
+                             build, options, folder, folder, folder);
         if (code == 64) { /* refused beside --json or --prove, or another command */
             refused++;
             continue;
         }
         if (code != 0)
             fail_msg("%s ends with %d", options, code);
-        const int checked =
-            run("build/rollbem check --prove %s/j.json >%s/out 2>%s/err", folder, folder, folder);
+        const int checked = run("%s/rollbem check --prove %s/j.json >%s/out 2>%s/err", build,
+                                folder, folder, folder);
         if (checked == 65) /* its steps or error bars cannot be checked from it alone */
             continue;
         if (checked != 0)
