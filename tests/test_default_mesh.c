@@ -112,6 +112,26 @@ TEST(many_elements_never_give_a_larger_error)
             check_errors(rows[k], MEASURES, 0, 4, sizes, 2400);
 }
 
+/* The edges of wheels are searched by the far field of one boundary; where they rest is decided by
+ * the boundary elements of the fitted mesh itself, as exactly as on half-planes. */
+TEST(edges_of_wheels_come_to_rest)
+{
+    static const char *const wheels[] = {
+        "support hub similar yes support-b halfplane half-width 5 formulation steady mesh fitted",
+        "support arc similar yes support-b halfplane half-width 2 formulation steady mesh fitted"};
+    static const int sizes[] = {50, 100, 140};
+    static const double most[] = {6e-4, 1.5e-4, 5e-5};
+    for (int k = 0; k < 2; k++) {
+        const words w = {{wheels[k], "mu 0.3", "creep-ratio 0.4"}};
+        const rb_rolling_solution best = solved(&w, 200);
+        for (int n = 0; n < 3; n++) {
+            const rb_rolling_solution s = solved(&w, sizes[n]);
+            CHECK_REL(s.half_width, best.half_width, most[n], "%.15s, %d elements", wheels[k],
+                      sizes[n]);
+        }
+    }
+}
+
 /* From mu beta = 1 on Newton's method fails on most aligned elements: there the program takes equal
  * ones, with which it ends.  Fewer, which have a matrix, know the force nearly. */
 TEST(strong_coupling_gets_equal_elements)

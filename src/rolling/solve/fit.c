@@ -12,9 +12,6 @@ enum {
 /* Edges that have come to rest, or near enough after all rounds: in lengths of the
  * outermost elements, which are the smallest of the mesh. */
 static const double AT_REST = 0.1, NEAR_REST = 3.0;
-/* Edges that boundary elements find where the far field of other elements let them rest, in the
- * same lengths; where it was the one of elements fitted nearly as these: NEAR_REST. */
-static const double WITHIN = 1.0;
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
@@ -119,7 +116,7 @@ static double refine(double found, double h, double *fitted, bracket *b)
         *b = (bracket){-INFINITY, INFINITY};
     if (found > *fitted) {
         b->inner = fmax(b->inner, *fitted);
-        b->outer = b->outer > *fitted ? b->outer : INFINITY; /* was that of another far field */
+        b->outer = b->outer > *fitted ? b->outer : INFINITY;
     } else {
         b->outer = fmin(b->outer, *fitted);
         b->inner = b->inner < *fitted ? b->inner : -INFINITY;
@@ -174,10 +171,10 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 }
 
 /* From a solution to elements fitted to its edges, until these rest; where they do not, or
- * where no solution is found on them, to equal ones. */
-/* Wheels are solved by their far field until the edges rest, and with_systems once more by their
- * boundary elements, which find them near enough mostly; else the far field of these is the next
- * one.  room: kept beyond the edges at first, as a part of the patch. */
+ * where no solution is found on them, to equal ones.
+ * Wheels are searched by a far field until the edges rest, then with_systems by their boundary
+ * elements, mostly two or three times.  room: kept beyond the edges at first, as a part of the
+ * patch. */
 static rb_status refit(rb_rolling_model *model, double room, int with_systems, rb_message *why)
 {
     patches fitted, found;
@@ -185,7 +182,7 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, r
     const int has_far = rb_rolling_has_far_field(model->rc) && model->mesh.n >= 8,
               rounds = has_far ? 2 * ROUNDS : ROUNDS;
     rb_status s = find_patches(model, &fitted);
-    int rest = 0, by_systems = 0;
+    int rest = 0;
 
     if (s == RB_OK && has_far && !model->far)
         s = rb_rolling_far_field_create(model, &model->far, why);
@@ -224,16 +221,11 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, r
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
             }
-            by_systems += !by_far_field;
-            rest = moved < (round + 1 == rounds        ? NEAR_REST
-                            : by_far_field || !has_far ? AT_REST
-                            : by_systems > 1           ? NEAR_REST
-                                                       : WITHIN);
-            if (with_systems && by_far_field && (rest || round + 2 >= rounds)) {
+            rest = moved < (round + 1 == rounds ? NEAR_REST : AT_REST);
+            if (with_systems && by_far_field && (rest || round + 1 >= ROUNDS)) {
                 drop_far_field(model);
+                forget(known);
                 rest = 0;
-            } else if (has_far && !by_far_field && !rest) {
-                s = rb_rolling_far_field_create(model, &model->far, why);
             }
         } else {
             forget(known);
