@@ -140,9 +140,9 @@ TEST(unloading_follows_mindlin_and_deresiewicz)
     release(&model, &h);
 }
 
-/* Load and force go to and fro: every second state is the one before the last, in which elements are
- * undecided between stick and slip, and on 60 elements Newton's method and Lemke's fail on the force;
- * the shift that has this force is found then. */
+/* Load and force go to and fro: every second state is the one before the last, in which elements
+ * are undecided between stick and slip, and on 60 elements Newton's method and Lemke's fail on the
+ * force; the shift that has this force is found then. */
 TEST(states_that_return_exactly_are_solved)
 {
     const double load[] = {10.1067, 14.4382, 10.1067, 14.4382, 10.1067};
