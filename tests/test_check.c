@@ -104,6 +104,9 @@ TEST(results_are_valid)
     static const char *const more[] = {
         "--support halfplane --load 100 --mu 0 --formulation steady --creep 1e-3",
         "--support halfplane --half-width 0.05 --similar",
+        /* at rest on a smooth base Q = 0, which has derivatives like a force that is given */
+        "--support halfplane --layer-thickness 2 --layer-base smooth --base-young 20000 "
+        "--contact-elements 15 --approach 0.04 --derivatives=all",
         "--support halfplane --load 100 --mesh uniform --creep 1e-3" STEADY,
         "--support arc --load 100 --mesh fitted --contact-elements 60 --creep 1e-3" STEADY,
         "--support hub --contact-elements 60 --mu 0.05 --poisson 0 --mesh aligned --tol 1e-8 "

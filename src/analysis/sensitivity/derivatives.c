@@ -116,8 +116,12 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
             const double value = *place_of(o, entry, &resolved);
 
             int means = 0;
-            if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
-                (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
+            /* What a case has made of other numbers, as a load of a half-width, is none of its own;
+             * but Q = 0 is, where nothing else is given. */
+            const int is_own = entry > 0 ||
+                               !isnan(*(double *)(void *)((char *)&words + o->offset)) ||
+                               strcmp(o->name, "force") == 0;
+            if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) || !is_own ||
                 (o->word && value == o->word_value && o->word_value != 0.0) ||
                 (o->word && value == o->word_value && value == 0.0) || rb_case_is_replaced(c, o))
                 continue;
