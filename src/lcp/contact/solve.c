@@ -637,14 +637,17 @@ static rb_status solve_by_creepage(rb_contact_problem *problem, const rb_contact
     if (s == RB_OK && !row)
         s = RB_ENOMEM;
     if (s == RB_OK) {
-        /* Beyond this creepage, or shift, all slides, also where earlier steps have left some. */
+        /* Beyond this creepage, or shift, all slides, also where earlier steps have left some. None
+         * is known where an element does not move with it (e_T = 0): then nothing is sought. */
         for (size_t i = 0; i < n; i++)
             reach = fmax(reach, problem->sliding + fabs(problem->d_T[i] / problem->e_T[i]));
         double low = -reach, high = reach;
         given.force_given = 0;
         rb_contact_force_row(problem, row, row + n);
         s = RB_MAXITER;
-        for (int k = 0; k < HALVINGS && s > 0 && rb_contact_has_steps_left(problem, &known); k++) {
+        for (int k = 0;
+             k < HALVINGS && s > 0 && isfinite(reach) && rb_contact_has_steps_left(problem, &known);
+             k++) {
             given.xi = 0.5 * (low + high);
             s = solve_given(&given, options, k > 0, &known, NULL);
             if (s != RB_OK)
