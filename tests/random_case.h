@@ -235,8 +235,13 @@ static inline void random_controls(random_case *c)
 static inline void random_mesh(random_case *c, int elements)
 {
     static const char *const equal[] = {"", " --mesh uniform", " --slip-operator second"};
-    static const char *const any[] = {
-        "", "", " --mesh uniform", " --mesh fitted", " --mesh aligned", " --near-field exact"};
+    const int is_wheel = strstr(c->line, " hub ") || strstr(c->line, " arc ");
+    const char *const any[] = {"",
+                               "",
+                               " --mesh uniform",
+                               " --mesh fitted",
+                               " --mesh aligned",
+                               is_wheel ? " --near-field exact" : ""};
     random_add(c, " --contact-elements %d", elements + random_choice(c, 2 * elements));
     if (c->regime == RANDOM_STATIC)
         random_add(c, "%s", any[random_choice(c, 6)]);

@@ -414,7 +414,9 @@ static const conflict conflicts[] = {
     /* without a wheel there is no boundary */
     {{"size=hierarchical", "support=halfplane"}, NULL},
     {{"size=hierarchical", "output=dump*|stress*|error|accuracy|sweep"}, NULL},
-    {{"near-field!auto", "support=halfplane", "body-b!arc"}, NULL},
+    {{"near-field!auto", "support=halfplane", "body-b=rigid|similar|dissimilar|cylinder|bore"},
+     "it needs a wheel"},
+    {{"near-field!auto", "support=halfplane", "body-b=hub"}, NULL},
 };
 
 /* The levels of a factor that a value of a conflict names, as a set of bits. */

@@ -81,6 +81,8 @@ export function with_support(given, support) {
     const next = { ...given, support };
     for (const [kind, names] of Object.entries(BELONGS))
         if (kind !== support) for (const name of names) delete next[name];
+    if (support === "halfplane" && (next["support-b"] ?? "halfplane") === "halfplane")
+        for (const name of ["outer-elements", "near-field"]) delete next[name];
     if (support !== "halfplane" || !(Number(next.speed) > 0))
         for (const name of ["relaxation-time", "relaxation-ratio", "speed"]) if (support === "arc") delete next[name];
     return next;

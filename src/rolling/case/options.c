@@ -370,13 +370,13 @@ const rb_option rb_case_table[] = {
                    "has three separated elements",
                    .word = "auto", .word_value = 0.0, .frozen = 1),
     RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM_TO(0, RB_ROLLING_MOST_OUTER),
-                    "number on the circle outside the contact, one more if that makes the mesh "
+                    "wheels: number on the circle outside the contact, one more if that makes the mesh "
                     "symmetric; 0: graded, neighbours differ by at most a fifth"),
     RB_CHOICE_LINE("normals", RC(normals), normals,
                    "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
     RB_CHOICE_LINE(
         "near-field", RC(near_field), near_fields,
-        "displacements close to a load on a wheel: by plain boundary elements, or by the "
+        "wheels: displacements close to a load, by plain boundary elements, or by the "
         "exact solution of a strip and elements for the remainder; auto: exact on fitted "
         "meshes, and on covers waves around the circumference without elements"),
 

@@ -594,6 +594,24 @@ static rb_status check_rigid_parts(const rb_case *c, rb_message *why)
     return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
 }
 
+/* Elements outside the contact, where a wheel has a boundary there.  As the options of a support,
+ * what stands in the case file gives way to supports of the command line. */
+static rb_status check_boundary(const rb_case *c, rb_message *why)
+{
+    static const char *const options[] = {"outer-elements", "near-field"};
+    const rb_rolling_case *rc = &c->resolved.rc;
+    const int is_asked[] = {rc->outer_elements > 0, rc->near_field != RB_NEAR_FIELD_AUTO};
+    const int gives_way = rb_case_given(c, "support") == RB_GIVEN_ARGUMENT ||
+                          rb_case_given(c, "support-b") == RB_GIVEN_ARGUMENT;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < 2 && s == RB_OK && rb_rolling_can(rc, RB_BODY_FLAT); k++)
+        if (is_asked[k] && !(rb_case_given(c, options[k]) > 0 && gives_way))
+            s = rb_case_refuse_given(
+                c, options[k], "it needs a wheel, half-planes have no elements around them", why);
+    return s;
+}
+
 /* What stands in a file of layers is not given a second time. */
 static rb_status check_layers(const rb_case *c, rb_message *why)
 {
@@ -640,6 +658,8 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
                 status = check_parameter(c, body, kind, p, why);
             }
     }
+    if (status == RB_OK)
+        status = check_boundary(c, why);
     return status == RB_OK ? check_rigid_parts(c, why) : status;
 }
 
