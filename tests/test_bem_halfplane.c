@@ -185,6 +185,22 @@ TEST(far_points_are_those_of_single_strips)
     }
 }
 
+/* Tractions that are linear between nodes, with a jump, are a line load from far away. */
+TEST(far_linear_tractions_are_a_line_load)
+{
+    const double nodes[] = {-1.0, 0.5, 0.5, 1.0}, p[] = {0.0, 2.0, 1.0, 0.0},
+                 q[] = {0.0, 1.0, 3.0, 0.0}, P = 1.75, Q = 1.5;
+    for (double r = 1e8; r < 1e302; r *= 1e7) {
+        const double xy[2] = {-0.8 * r, 0.6 * r}, radial = -2 * (0.6 * P - 0.8 * Q) / (M_PI * r);
+        double s[3];
+        CHECK_OK(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){4, nodes, p, q},
+                                                (rb_bem_points){1, xy}, s));
+        CHECK_REL(s[0], 0.64 * radial, 1e-7, "sxx at %g", r);
+        CHECK_REL(s[1], 0.36 * radial, 1e-7, "syy at %g", r);
+        CHECK_REL(s[2], -0.48 * radial, 1e-7, "sxy at %g", r);
+    }
+}
+
 /* A strip between ends 2 c apart in the third direction, on a half-space: Boussinesq's
  * and Cerruti's displacements, the third direction in closed form, x by midpoints. */
 static double of_half_space(int tangential, double from, double to, double c)

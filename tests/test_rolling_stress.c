@@ -71,6 +71,24 @@ TEST(far_away_it_is_a_point_load)
         CHECK_ABS(s.syy, radial * 0.64, 1e-2 / far / far * -radial * 20.0, "syy %g", far);
         CHECK_ABS(s.sxy, radial * 0.48, 1e-2 / far / far * -radial * 20.0, "sxy %g", far);
     }
+    /* and up to where numbers end, alone and among many */
+    for (int many = 0; many < 2; many++)
+        for (double r = 1e6; r < 1e302; r *= 1e5) {
+            enum { MANY = 60 };
+            double xy[2 * MANY];
+            rb_rolling_stress s[MANY];
+            for (int k = 0; k < MANY; k++) {
+                xy[2 * k] = 0.6 * r;
+                xy[2 * k + 1] = 0.8 * r;
+            }
+            CHECK_OK(rb_rolling_stress_at(&model, many ? MANY : 1, xy, s, NULL));
+            const double radial = -2.0 * P * 0.8 / (M_PI * r), nu = rc.a.poisson;
+            CHECK_REL(s->sxx, radial * 0.36, 1e-12, "sxx %g", r);
+            CHECK_REL(s->syy, radial * 0.64, 1e-12, "syy %g", r);
+            CHECK_REL(s->sxy, radial * 0.48, 1e-12, "sxy %g", r);
+            CHECK_REL(s->max_shear, -0.5 * radial, 1e-12, "max_shear %g", r);
+            CHECK_REL(s->von_mises, -radial * sqrt(1.0 - nu + nu * nu), 1e-12, "von_mises %g", r);
+        }
     /* near and far ones in one list as each by itself */
     const double xy[] = {0.1, 0.2, 40.0 * width, 1.0, -0.3, 0.5, 3.0, 90.0 * width};
     rb_rolling_stress all[4];

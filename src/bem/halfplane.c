@@ -32,6 +32,34 @@ static void add_strip(const rb_element *strip, double p, double q, double x, dou
     stress[2] += (-p * d2P - q * (v.Th - dQ)) / M_PI;
 }
 
+/* From here on, in half-widths of the load, two line loads per strip (Gauss) are exact to rounding,
+ * while the angles and logarithms of ends that are so near to each other lose digits. */
+static const double LINES = 1e4;
+
+/* Flamant's line load (p, q), divided by no power of r that overflows. */
+static void add_line(double p, double q, double x, double y, double *stress)
+{
+    const double r = hypot(x, y), c = x / r, s = y / r,
+                 radial = -(p * s + q * c) * M_2_PI / r; /* the only stress */
+
+    stress[0] += radial * c * c;
+    stress[1] += radial * s * s;
+    stress[2] += radial * c * s;
+}
+
+/* Tractions that are linear, from p, q at `from` to those at `to`. */
+static void add_lines(double from, double to, const double p[2], const double q[2], double x,
+                      double y, double *stress)
+{
+    const double h = to - from, near = 0.5 - 0.5 / sqrt(3.0);
+
+    for (int k = 0; k < 2; k++) {
+        const double part = k ? 1.0 - near : near;
+        add_line(0.5 * h * (p[0] + part * (p[1] - p[0])), 0.5 * h * (q[0] + part * (q[1] - q[0])),
+                 x - (from + part * h), y, stress);
+    }
+}
+
 /* Far from all strips, in half-widths of the load from its middle, 48 terms of a series
  * are exact to 2^-48.  It pays for more points than it has terms. */
 enum { TERMS = 48 };
@@ -113,8 +141,13 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
         if (rb_interrupted_in_loop(&stop))
             continue;
         const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
+        const double away = hypot(x - far.middle, y);
         double sum[3] = {0.0, 0.0, 0.0};
-        if (is_series && hypot(x - far.middle, y) >= FAR * far.half)
+        if (away >= LINES * far.half)
+            for (int i = 0; i < n; i++)
+                add_lines(load->x[i], load->x[i + 1], (double[]){load->p[i], load->p[i]},
+                          (double[]){load->q[i], load->q[i]}, x, y, sum);
+        else if (is_series && away >= FAR * far.half)
             far_stress(&far, complex_of(x, -y), sum);
         else
             for (int i = 0; i < n; i++)
@@ -206,7 +239,15 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
             continue;
         /* The logarithms at a node itself cancel, if both intervals see it from as near. */
         const double x = points.xy[2 * i], y = fmax(points.xy[2 * i + 1], tiny);
-        if (is_series && hypot(x - far.middle, y) >= FAR * far.half) {
+        const double away = hypot(x - far.middle, y);
+        if (away >= LINES * far.half) {
+            double *sum = stress + 3 * i;
+            sum[0] = sum[1] = sum[2] = 0.0;
+            for (int j = 0; j + 1 < n; j++)
+                add_lines(nodes[j], nodes[j + 1], p + j, q + j, x, points.xy[2 * i + 1], sum);
+            continue;
+        }
+        if (is_series && away >= FAR * far.half) {
             far_stress(&far, complex_of(x, -y), stress + 3 * i);
             continue;
         }

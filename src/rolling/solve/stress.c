@@ -269,9 +269,13 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
         s.principal_2 = mean - s.max_shear;
         s.tresca_shear = 0.5 * (fmax(s.principal_1, s.szz) - fmin(s.principal_2, s.szz));
         s.hydrostatic = (s.sxx + s.syy + s.szz) / 3.0;
-        s.von_mises = sqrt(
-            0.5 * (gsl_pow_2(s.sxx - s.syy) + gsl_pow_2(s.syy - s.szz) + gsl_pow_2(s.szz - s.sxx)) +
-            3.0 * gsl_pow_2(s.sxy));
+        /* in units of the shear, whose square may underflow */
+        int unit;
+        frexp(s.tresca_shear, &unit);
+        const double one = ldexp(1.0, unit), x_y = (s.sxx - s.syy) / one,
+                     y_z = (s.syy - s.szz) / one, z_x = (s.szz - s.sxx) / one;
+        s.von_mises = one * sqrt(0.5 * (gsl_pow_2(x_y) + gsl_pow_2(y_z) + gsl_pow_2(z_x)) +
+                                 3.0 * gsl_pow_2(s.sxy / one));
         stress[k] = s;
     }
     return rb_arena_done(&scratch, RB_OK);
