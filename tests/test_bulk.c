@@ -353,6 +353,30 @@ TEST(derivatives)
     CHECK_REL(number_in(d, "bulk-stress-b"), -COMPLIANCE, 1e-8, "creepage");
 }
 
+/* The notes of a single case, where a column of a history has the bulk stress. */
+TEST(histories_have_the_notes)
+{
+    static const struct {
+        const char *line, *rows, *single, *note;
+    } cases[] = {
+        {"--formulation transient ", "distance creep bulk_stress\n0 1e-3 20\n1 1e-3 50\n",
+         "--distance 1 --creep 1e-3 --bulk-stress 50",
+         "note: The creepage is that of the unstrained bodies: the bulk stresses shift every "
+         "creepage by 0.0002167."},
+        {"", "shift bulk_stress\n0 20\n0 5e4\n", "--shift 0 --bulk-stress 5e4",
+         "note: The strains are far beyond linear elasticity (bulk strain = 0.22)"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char line[500];
+        write_file("bulk.txt", cases[k].rows);
+        snprintf(line, sizeof line, SIMILAR "%s %s", cases[k].line, cases[k].single);
+        assert_int_equal(rollbem(line), 0);
+        assert_non_null(strstr(err, cases[k].note));
+        snprintf(line, sizeof line, SIMILAR "%s --history bulk.txt", cases[k].line);
+        assert_int_equal(rollbem(line), 0);
+        assert_non_null(strstr(err, cases[k].note));
+    }
+}
+
 TEST(what_is_refused)
 {
 #define ONE_MATERIAL "it needs half-planes of one elastic material"

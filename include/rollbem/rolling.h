@@ -429,6 +429,9 @@ typedef struct {
     double mean_pressure, contact_share; /* with a period L: P/L [stress], and the part of L in
                                             contact; otherwise NAN */
     double tilt;                         /* of A; NAN: neither tilt nor moment is given */
+    double bulk_strain;                  /* of A less that of B; by bulk stress, which may differ
+                                            from step to step */
+    double largest_bulk_strain;          /* magnitude of the larger of both */
     double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
                                             such xi was found */
     double hertz_half_width;             /* rb_rolling_contact_half_width of the load P; used in

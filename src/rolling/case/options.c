@@ -369,9 +369,10 @@ const rb_option rb_case_table[] = {
                    "half-width of the potential contact; auto: enlarged until each end "
                    "has three separated elements",
                    .word = "auto", .word_value = 0.0, .frozen = 1),
-    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM_TO(0, RB_ROLLING_MOST_OUTER),
-                    "wheels: number on the circle outside the contact, one more if that makes the mesh "
-                    "symmetric; 0: graded, neighbours differ by at most a fifth"),
+    RB_INTEGER_LINE(
+        "outer-elements", RC(outer_elements), RB_FROM_TO(0, RB_ROLLING_MOST_OUTER),
+        "wheels: number on the circle outside the contact, one more if that makes the mesh "
+        "symmetric; 0: graded, neighbours differ by at most a fifth"),
     RB_CHOICE_LINE("normals", RC(normals), normals,
                    "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
     RB_CHOICE_LINE(

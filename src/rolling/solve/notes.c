@@ -86,7 +86,7 @@ static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char
     if (third > 0.0 || !isfinite(radius))
         width = third > 0.0 ? fmin(width, 2.0 * p0 / d.modulus) : 2.0 * p0 / d.modulus;
     /* a contact with a/R strains by p0/E* = a/(2 R) */
-    const double bulk = rb_rolling_largest_bulk_strain(rc), bulk_width = 2.0 * bulk;
+    const double bulk = s->largest_bulk_strain, bulk_width = 2.0 * bulk;
 
     if (approach > inaccurate_approach || fmax(width, bulk_width) > inaccurate_width) {
         const int broken = approach > broken_approach || fmax(width, bulk_width) > broken_width;
@@ -579,13 +579,12 @@ static int base_pulls(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 
 static int strained_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    (void)s;
-    return rc->formulation != RB_STATIC && rb_rolling_bulk_strain(rc) != 0.0 &&
+    return rc->formulation != RB_STATIC && s->bulk_strain != 0.0 &&
            write_note(
                text,
                "The creepage is that of the unstrained bodies: the bulk stresses shift every "
                "creepage by %.4g.",
-               rb_rolling_bulk_strain(rc));
+               s->bulk_strain);
 }
 
 static int slips_both_ways(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)

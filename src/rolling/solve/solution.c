@@ -107,6 +107,8 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
     s->hertz_half_width = rb_rolling_has_radius(model->rc) ? model->half_width : NAN;
+    s->bulk_strain = rb_rolling_bulk_strain(model->rc);
+    s->largest_bulk_strain = rb_rolling_largest_bulk_strain(model->rc);
     s->mean_pressure = model->rc->period > 0.0 ? s->normal_load / model->rc->period : NAN;
     s->datum = rb_rolling_datum(model->rc, &model->rc->a);
     s->approach = model->state.delta;
