@@ -3,7 +3,11 @@
 #include "cases.h"
 #include "check.h"
 #include "posed.h"
-#include "rolling/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -3,6 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/formulation.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -3,6 +3,7 @@
 #include "cases.h"
 #include "lcp/contact/dense.h"
 #include "rolling/study/internal.h"
+#include "rolling/body/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

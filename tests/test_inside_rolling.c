@@ -5,7 +5,10 @@
 #include "check.h"
 #include "profiles.h"
 #include "solved.h"
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 

@@ -3,6 +3,8 @@
 #include "cases.h"
 #include "solved.h"
 #include "rolling/study/internal.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/zone.h"
 
 #include <float.h>
 

@@ -1,5 +1,9 @@
 /* From case to solution in one call, whatever the case is: at rest, steady, or step by step. */
-#include "rolling/history/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/zone.h"
 
 #include <string.h>
 

@@ -7,8 +7,9 @@
 #include "bem/large.h"
 #include "bem/skeleton.h"
 #include "bem/stack.h"
-#include "rolling/internal.h"
-#include "rolling/study/internal.h"
+#include "bem/bem.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
 #include "base/blas.h"
 #include "lcp/friction/friction.h"
 

@@ -1,6 +1,7 @@
 /* The flexibility of both bodies and of what lies between them, F = F_A + F_B + compliance of the
  * interlayer (4.5, 4.10): each body by its row of the table of bodies. */
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
+#include "rolling/case/internal.h"
 
 #include <cblas.h>
 #include <stdio.h>

@@ -1,6 +1,8 @@
 /* The table of bodies, and functions for all bodies. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/case/derived.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 

@@ -1,6 +1,8 @@
 /* Half-planes, which have translation symmetry: of one material, as a layer on a base,
  * and viscoelastic. */
-#include "rolling/internal.h"
+#include "rolling/body/gap.h"
+#include "rolling/body/internal.h"
+#include "rolling/case/derived.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,6 +1,6 @@
 /* The viscoelastic part of the flexibility of one body, from which its hysteresis is
  * computed. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
 
 rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory)
 {

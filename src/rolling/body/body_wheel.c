@@ -1,6 +1,7 @@
 /* Wheels, whose boundary has elements all around: on a clamped arc, on a rigid hub, and
  * with a cover on a core. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/solve/model.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

@@ -1,7 +1,9 @@
 /* What the rest of a wheel adds to the half-plane that answers like it close to a load (B10): a
  * smooth function of both places, so that few points of one mesh tell it on any other.  The
  * search for the edges of the contact then solves the boundary of the wheel only once. */
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
 
 #include <cblas.h>
 #include <stdlib.h>

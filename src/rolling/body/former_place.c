@@ -1,6 +1,7 @@
 /* Where a particle was one step ago, when a step is not one element: between the
  * midpoints and beyond them. */
-#include "rolling/internal.h"
+#include "rolling/body/former_place.h"
+#include "rolling/body/internal.h"
 
 #include <cblas.h>
 #include <string.h>

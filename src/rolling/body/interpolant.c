@@ -1,7 +1,8 @@
 /* The curve through the points of a table: cubic splines, whose curvature is continuous, between
  * the corners of the data, and no curve that leaves its points.  A spline through a corner swings
  * over several rows to either side of it, a spline through a wall by a multiple of its height. */
-#include "rolling/internal.h"
+#include "base/base.h"
+#include "rolling/body/interpolant.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_poly.h>

@@ -1,5 +1,5 @@
 /* Elastic constants of the bodies for the plane problem of the case. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
 
 rb_bem_material rb_rolling_material(const rb_rolling_case *rc, const rb_rolling_body *body)
 {

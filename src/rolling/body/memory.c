@@ -1,5 +1,9 @@
 /* Memory at the peak of a solution: the formulas of docs/performance.md, "Memory". */
-#include "rolling/internal.h"
+#include "rolling/body/body.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+
+#include <math.h>
 
 /* Numbers per element of the path on which Newton's method goes on where its steps go
  * round in circles. */

@@ -1,6 +1,9 @@
 /* The mesh of the potential contact: ends and midpoints of its elements, and the gap of the
  * undeformed bodies there. */
-#include "rolling/internal.h"
+#include "rolling/body/body.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_interp.h>

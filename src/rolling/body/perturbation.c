@@ -1,9 +1,10 @@
 /* Bodies that are slightly others than those of a model, under the model's tractions: how much more
  * they displace, without flexibilities of their own where they have boundary elements
  * (theory-bodies.md, B13).  A body that stays costs nothing. */
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
 
 #include <cblas.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

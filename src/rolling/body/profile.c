@@ -1,5 +1,6 @@
 /* What a profile of the gap tells: its ends, rows, corners, radius and values. */
-#include "rolling/internal.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,9 @@
 /* A measured gap as a curve: through its points or, where they carry noise, the smoothest curve
  * that stays as close to them as the noise is large.  The pressure follows the curvature of the
  * gap, which a cubic spline keeps continuous. */
-#include "rolling/internal.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <lapacke.h>

@@ -1,5 +1,8 @@
 /* A case: its defaults, and which numbers go together. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/law.h"
 
 #include <gsl/gsl_math.h>
 

@@ -6,6 +6,7 @@
 #include "base/io/io_contact.h"
 #include "base/units.h"
 #include "rolling/case/options.h"
+#include "rolling/rolling.h"
 #include "rollbem/case.h"
 
 /* ---- Options --------------------------------------------------------------------- */

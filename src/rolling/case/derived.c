@@ -1,6 +1,8 @@
 /* What follows from the numbers of a case by formulas: radius, modulus, Dundurs' constants,
  * half-width, load and pressure of Hertz's contact and of its kin (4.4, 4.5). */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
 
 #include <gsl/gsl_math.h>
 
@@ -345,6 +347,11 @@ double rb_rolling_largest_bulk_strain(const rb_rolling_case *rc)
 int rb_rolling_has_ellipse(const rb_rolling_case *rc)
 {
     return !isnan(rc->wheel_load);
+}
+
+int rb_rolling_has_heat(const rb_rolling_case *rc)
+{
+    return rc->heat_a.conductivity > 0.0;
 }
 
 int rb_rolling_is_tilted(const rb_rolling_case *rc)

@@ -1,6 +1,8 @@
 /* Hertz's ellipse of a wheel whose surfaces are curved across the rolling direction, too, and the
  * strip through its middle (E2). */
-#include "rolling/internal.h"
+#include "rolling/body/body.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/pressed.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>

@@ -1,7 +1,9 @@
 /* The options of a case, each once: everything that reads, shows or checks them is made
  * from this table. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/case/internal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -4,8 +4,8 @@
 #ifndef ROLLBEM_SRC_ROLLING_CASE_OPTIONS_H
 #define ROLLBEM_SRC_ROLLING_CASE_OPTIONS_H
 
-#include "base/units.h"
-#include "rolling/rolling.h"
+#include "rollbem/options.h"
+#include "rollbem/rolling.h"
 #include "rollbem/options.h"
 
 #include <math.h>

@@ -1,8 +1,17 @@
 /* A case made from options: set by name, resolved, checked. */
 #include "rolling/case/words.h"
 #include "rolling/case/rubber.h"
-#include "rolling/internal.h"
+#include "base/units.h"
+#include "lcp/contact/contact.h"
+#include "rolling/body/body.h"
+#include "rolling/body/gap.h"
+#include "rolling/case/internal.h"
+#include "rolling/history/history.h"
+#include "rolling/solve/notes.h"
+#include "rolling/solve/pressed.h"
+#include "rolling/solve/zone.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,12 @@
 /* State variables that particles carry from step to step (theory.md 4.2, 4.10, 4.11, V5):
  * one row of functions for each kind. */
+#include "rolling/body/body.h"
+#include "rolling/case/internal.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
 
+#include <math.h>
 #include <string.h>
 
 double rb_rolling_middle_length(const rb_rolling_model *model)

@@ -1,7 +1,12 @@
 /* Follows what fretting does to each element of the surfaces in one cycle of a history at rest:
  * work of friction, slip, stress and strain at the surface (Q1). */
+#include "lcp/contact/contact.h"
+#include "rolling/body/body.h"
+#include "rolling/case/derived.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/field.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

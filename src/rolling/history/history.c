@@ -1,7 +1,20 @@
 /* Sequences of contact problems, each starting from the state the last one left: static
  * increments and transient rolling (theory.md 4.2). */
+#include "rolling/body/internal.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/history/history.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/power.h"
+#include "rolling/solve/stress.h"
+#include "rolling/solve/variant.h"
+#include "rolling/solve/zone.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,10 @@
-/* Declarations shared by the files of this folder; includes those of rolling and
- * results. */
+/* Declarations shared by the files of this folder. */
 #ifndef ROLLBEM_HISTORY_INTERNAL_H
 #define ROLLBEM_HISTORY_INTERNAL_H
 
-#include "rolling/solve/results.h"
+#include "rolling/body/former_place.h"
+#include "rolling/solve/cycle.h"
+#include "rolling/solve/heat.h"
 
 /* ---- relax.c ----------------------------------------------------------------------- */
 

@@ -1,7 +1,12 @@
 /* The program of a history: its columns, and the case of each of its steps. */
+#include "rolling/case/internal.h"
+#include "rolling/history/history.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/results.h"
 
 #include <gsl/gsl_interp.h>
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 

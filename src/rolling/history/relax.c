@@ -3,6 +3,8 @@
  * from earlier loads.  Filtered tractions are stored, not displacements: tractions move
  * with the material and are zero where there was no load, while displacements are nonzero
  * everywhere. */
+#include "rolling/body/internal.h"
+#include "rolling/case/derived.h"
 #include "rolling/history/internal.h"
 
 #include <cblas.h>

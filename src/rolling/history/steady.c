@@ -1,5 +1,6 @@
 /* From which step on a rolling contact is steady: whether all that has followed it, to the end
  * of the way, differs from it by less than a thousandth, each quantity in its own scale. */
+#include "rolling/case/derived.h"
 #include "rolling/history/internal.h"
 
 #include <gsl/gsl_math.h>

@@ -1,6 +1,12 @@
 /* One step alone, from the state of a solution before it. */
+#include "rolling/case/internal.h"
+#include "rolling/history/history.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
 
+#include <math.h>
 #include <string.h>
 
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,

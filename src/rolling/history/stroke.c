@@ -1,5 +1,6 @@
 /* Strokes that are not small beside the contact: A's profile stays with A and B's with B, and both
  * wear at positions along the stroke (theory-rolling.md 4.9, W5). */
+#include "base/base.h"
 #include "rolling/history/internal.h"
 
 #include <gsl/gsl_integration.h>

@@ -1,6 +1,14 @@
 /* Wear: a sequence of steps of two contact problems, each of which includes the wear of its own
  * stage implicitly (theory-rolling.md 4.9). */
+#include "rolling/body/body.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
 #include "rolling/history/internal.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/power.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

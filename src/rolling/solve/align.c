@@ -1,6 +1,12 @@
 /* Equal elements aligned with the contact: both edges are ends of elements, so that the
  * second-order slip operator has its second order (theory-rolling.md 4.7). */
-#include "rolling/internal.h"
+#include "base/sizes.h"
+#include "rolling/body/mesh.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/zone.h"
+
+#include <math.h>
 
 enum {
     FIRST = 30, /* elements at least that the first edges are found with */

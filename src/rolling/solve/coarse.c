@@ -1,6 +1,8 @@
 /* A solution on a coarser mesh is the start on a finer one, so that the number of Newton
  * steps does not grow. */
-#include "rolling/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/zone.h"
 
 /* The coarsest mesh, which starts cold, has fewer elements than any that starts from another one.
  */

@@ -1,6 +1,10 @@
 /* From a case to its solved contact problem on the given kind of mesh, and the
  * free-rolling creepage. */
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/zone.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,8 @@
 /* What fretting has done to each element of the surfaces in a cycle, as results (Q1). */
-#include "rolling/solve/results.h"
+#include "base/base.h"
+#include "rolling/solve/cycle.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const double SAME = 1e-9;

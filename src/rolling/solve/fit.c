@@ -1,7 +1,12 @@
 /* Elements fitted to the patches of the contact, whose edges are known only from a
  * solution (theory-solvers.md 5.1). */
-#include "rolling/internal.h"
+#include "rolling/body/far_field.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/zone.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {

@@ -1,9 +1,13 @@
 /* The formulation of a case as a contact problem (theory.md 4.2): the kinematic operator
  * A, the motion of the surfaces, the given quantities.  The solvers are the same for all
  * formulations. */
-#include "rolling/internal.h"
+#include "rolling/body/former_place.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

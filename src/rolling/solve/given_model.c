@@ -1,6 +1,11 @@
 /* A model of tractions that are given, on which no contact is solved. */
-#include "rolling/solve/results.h"
+#include "rolling/body/body.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/stress.h"
+#include "rolling/study/study.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* Resultants, largest traction and half-width. */

@@ -1,6 +1,8 @@
 /* Tractions that are given instead of solved for: where they begin, end and jump. */
-#include "rolling/solve/results.h"
+#include "rolling/solve/field.h"
+#include "rolling/solve/model.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 void rb_rolling_given_free(rb_rolling_given *given)

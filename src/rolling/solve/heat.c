@@ -1,6 +1,9 @@
 /* Flash temperature: friction heats the surfaces on their way through the contact
  * (theory-rolling.md 4.8). */
-#include "rolling/internal.h"
+#include "lcp/contact/contact.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/heat.h"
+#include "rolling/solve/patches.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -9,11 +12,6 @@
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
-
-int rb_rolling_has_heat(const rb_rolling_case *rc)
-{
-    return rc->heat_a.conductivity > 0.0;
-}
 
 static double diffusivity(const rb_rolling_heat *body)
 {

@@ -1,6 +1,9 @@
 /* Temperature below the surfaces in steady rolling (T4): Carslaw and Jaeger's moving line sources
  * along the contact. */
-#include "rolling/solve/results.h"
+#include "rolling/body/body.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/heat.h"
+#include "rolling/solve/stress.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>

@@ -1,7 +1,10 @@
 /* Friction laws (theory-rolling.md 4.11): the coefficient of an element from its state. */
-#include "rolling/internal.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
 
 #include <gsl/gsl_interp.h>
+#include <math.h>
 
 /* ---- The laws --------------------------------------------------------------------- */
 

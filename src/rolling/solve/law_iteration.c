@@ -1,7 +1,13 @@
 /* States whose coefficients of friction depend on them (theory-rolling.md 4.11): the contact
  * problem with the coefficients of the state before, until they do not change. */
-#include "rolling/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/heat.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,9 +3,11 @@
  * b.  The derivative of T along a direction is a difference of two solved contacts, so
  * that the method works for all laws, for coupled bodies and for operators without a
  * matrix. */
-#include "rolling/internal.h"
+#include "base/base.h"
+#include "rolling/solve/law.h"
 
 #include <cblas.h>
+#include <math.h>
 #include <string.h>
 
 enum { STEPS = 30, DIRECTIONS = 100, HALVINGS = 8 };

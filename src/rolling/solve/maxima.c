@@ -1,6 +1,9 @@
 /* The largest stresses of body A (B8): looked for on its surface, along its bond on both
  * sides of it, and inside; and those of the bond itself, by name. */
-#include "rolling/solve/results.h"
+#include "rolling/body/body.h"
+#include "rolling/solve/field.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/patches.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>

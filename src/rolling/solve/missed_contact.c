@@ -1,6 +1,10 @@
 /* The gap beyond the elements that could carry load: if the gap is a table, the bodies
  * may touch at places without elements (theory-solvers.md 5.1). */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/zone.h"
 
 #include <cblas.h>
 #include <gsl/gsl_interp.h>

@@ -1,6 +1,14 @@
 /* A solved contact problem on a given mesh, and its given ratio. */
-#include "rolling/solve/results.h"
+#include "rolling/body/far_field.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/cycle.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/stress.h"
+#include "rolling/solve/temperature.h"
+#include "rolling/solve/zone.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

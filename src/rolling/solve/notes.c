@@ -2,7 +2,16 @@
  * state as solved whether its sentence holds, and writes it; the table at the end has all of
  * them, those that change the meaning of the result first.  tests/test_sentences.c has a case
  * that must say it, and a near one that must not, for each. */
-#include "rolling/solve/results.h"
+#include "base/units.h"
+#include "rolling/body/internal.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/notes.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -1,5 +1,10 @@
 /* Where the contact begins and ends: its patches and their edges (theory-solvers.md 5.1). */
-#include "rolling/internal.h"
+#include "base/units.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/solution.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

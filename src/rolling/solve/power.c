@@ -1,5 +1,9 @@
 /* The power dissipated by friction and by viscoelastic bodies. */
-#include "rolling/internal.h"
+#include "rolling/body/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/power.h"
+#include "rolling/solve/solution.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -1,5 +1,11 @@
 /* The load under which the largest pressure is a given one. */
+#include "rolling/body/body.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/pressed.h"
 #include "rolling/solve/results.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 

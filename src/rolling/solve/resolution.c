@@ -1,6 +1,10 @@
 /* How short elements must be for the tables of a case: the gap is known to the contact at the
  * midpoints of elements alone, and what lies between them is lost (theory-solvers.md 5.1). */
-#include "rolling/internal.h"
+#include "rolling/body/interpolant.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

@@ -1,6 +1,10 @@
 /* The results, each once: JSON, tables, studies and error bars are made from these. */
-#include "rolling/solve/results.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/stress.h"
+#include "rolling/study/study.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

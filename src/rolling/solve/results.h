@@ -1,85 +1,148 @@
-/* What the files of this folder share, with those of rolling. */
-#ifndef ROLLBEM_RESULTS_INTERNAL_H
-#define ROLLBEM_RESULTS_INTERNAL_H
+/* The results by name: tables from which reports, studies and error bars are made. */
+#ifndef ROLLBEM_ROLLING_SOLVE_RESULTS_H
+#define ROLLBEM_ROLLING_SOLVE_RESULTS_H
 
-#include "rolling/internal.h"
+#include "base/units.h"
+#include "rollbem/rolling.h"
 
-/* ---- results.c --------------------------------------------------------------------- */
+typedef enum {
+    RB_RESULT_NUMBER,
+    RB_RESULT_WHOLE,  /* int */
+    RB_RESULT_SECONDS /* a number: time spent on it */
+} rb_rolling_result_kind;
 
-/* A row without columns, of numbers that are not there (NAN). */
-rb_rolling_row rb_rolling_no_row(rb_status status);
+/* The scale of a result with an error bar; its rounding error is proportional to this
+ * scale. */
+typedef enum {
+    RB_SCALE_NONE,
+    RB_SCALE_ONE,
+    RB_SCALE_LOAD,     /* P */
+    RB_SCALE_FRICTION, /* mu P */
+    RB_SCALE_APPROACH,
+    RB_SCALE_SHIFT,    /* mu a^2/R */
+    RB_SCALE_CREEPAGE, /* mu a/R */
+    RB_SCALE_WIDTH,    /* a */
+    RB_SCALE_ELEMENT,  /* length of an element */
+    RB_SCALE_PRESSURE, /* p0 */
+    RB_SCALE_POWER,    /* mu P times the creepage */
+    RB_SCALE_MOMENT,   /* P a */
+    RB_SCALE_TORQUE,   /* P a and mu P R */
+    RB_SCALE_STRAIN,   /* a/R */
+    RB_SCALE_WORK,     /* P a/R */
+    RB_SCALE_HEAT      /* rise of the temperature */
+} rb_rolling_error_scale;
 
-/* Zeros for every column of the table that the case has; the owner's others stay NULL.
- * What there is on RB_ENOMEM is freed as if it were complete. */
-rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
-                                   unsigned varies, int rows, void *owner);
-void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
+/* Which cases have a result.  For all other cases a number is NAN, a column is NULL, and
+ * reports omit both. */
+typedef enum {
+    RB_FOR_ALL,
+    RB_FOR_HEAT,
+    RB_FOR_HEAT_INSIDE, /* heat of steady rolling */
+    RB_FOR_WORN,
+    RB_FOR_LAW,        /* friction coefficients that differ between elements */
+    RB_FOR_MOVING_LAW, /* friction coefficients that depend on the state */
+    RB_FOR_WAY,        /* friction coefficient from a column of a history */
+    RB_FOR_BULK_WAY,   /* likewise bulk stress, that of B and tilt */
+    RB_FOR_BULK_B_WAY,
+    RB_FOR_TILT_WAY,
+    RB_FOR_PERIOD,
+    RB_FOR_MEMORY,
+    RB_FOR_YIELD,
+    RB_FOR_CYLINDER_B,
+    RB_FOR_TILT,
+    RB_FOR_ELLIPSE,
+    RB_FOR_ELLIPSE_FORCE,
+    RB_FOR_SMOOTH_BASE,
+    RB_FOR_FRETTING,
+    RB_FOR_FRETTING_B /* likewise of an elastic B */
+} rb_rolling_condition;
 
-/* ---- solution.c -------------------------------------------------------------------- */
+/* Description of one result.  Tables, JSON, studies and error bars are made from these
+ * rows. */
+typedef struct {
+    const char *name; /* in JSON */
+    const char *unit; /* "mm"; NULL: none */
+    rb_rolling_result_kind kind;
+    size_t offset; /* of the value, or of the pointer to the column, in its struct */
+    rb_rolling_error_scale error_bar; /* RB_SCALE_NONE: no discretisation error is estimated
+                                       */
+    int study;                        /* number of its column in a study; 0: none */
+    int is_mean;       /* in a rolled step: 1: mean over the step, 0: value at its end */
+    int no_derivative; /* 1: has no derivative: a residual, or a place known only to
+                          within one element */
+    rb_rolling_condition condition;
+    const char *symbol; /* heads the column instead of the name; NULL: the name */
+    const char *meaning;
+} rb_rolling_result;
 
-/* Tractions of the state on A in global x, y: 2 per contact element. */
-void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
+typedef struct {
+    int n;
+    const rb_rolling_result *row;
+} rb_rolling_results;
 
-/* ---- stress.c ---------------------------------------------------------------------- */
+/* The numbers of rb_rolling_solution, and its columns with one entry per element. */
+extern const rb_rolling_results rb_rolling_solution_scalars, rb_rolling_solution_columns;
+/* The numbers of rb_rolling_patch. */
+extern const rb_rolling_results rb_rolling_patch_scalars;
+/* The columns of rb_rolling_history, one entry per step, and of rb_rolling_curve, one
+ * entry per creepage. */
+extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
+/* The columns of rb_rolling_wear_history, one entry per step. */
+extern const rb_rolling_results rb_rolling_wear_columns;
+/* The numbers of rb_rolling_stress, and of rb_rolling_stress_maxima: three rows for each
+ * maximum, its value and its place; of rb_rolling_bond_maxima, with the names of bond 1. */
+extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars,
+    rb_rolling_maxima_b_scalars, rb_rolling_bond_scalars, rb_rolling_bond_b_scalars;
 
-/* The stress in A below the tractions of a solved model, which it borrows. */
-typedef struct rb_rolling_field rb_rolling_field;
-rb_status rb_rolling_field_create(const rb_rolling_model *model, rb_rolling_field **field,
-                                  rb_message *why);
-void rb_rolling_field_free(rb_rolling_field *field);
-/* As rb_rolling_stress_at. */
-rb_status rb_rolling_field_at(const rb_rolling_field *field, int n, const double *xy,
-                              rb_rolling_stress *stress, rb_message *why);
-/* Its tractions, linear between nodes. */
-const rb_bem_edge_load *rb_rolling_field_load(const rb_rolling_field *field);
+/* All these tables; an entry without a name ends the list. */
+typedef struct {
+    const char *name, *title;
+    const rb_rolling_results *results;
+} rb_rolling_result_table;
+extern const rb_rolling_result_table rb_rolling_result_tables[];
 
-/* ---- cycle.c ----------------------------------------------------------------------- */
+/* The row with this name; NULL: there is none. */
+const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name);
+/* Columns of a program that are columns of its history, too. */
+enum { RB_VARIES_MU = 1, RB_VARIES_BULK = 2, RB_VARIES_BULK_B = 4, RB_VARIES_TILT = 8 };
+unsigned rb_rolling_program_varies(const rb_rolling_program *program);
 
-/* Of each element: work of friction, slip in contact so far, the least and the largest of it,
- * largest friction. */
-enum {
-    RB_CYCLE_WORK,
-    RB_CYCLE_SLIP,
-    RB_CYCLE_LEAST_SLIP,
-    RB_CYCLE_MOST_SLIP,
-    RB_CYCLE_FRICTION,
-    RB_CYCLE_SUMS
-};
-/* Of each place of a body's surface, the elements and behind them two edges. */
-enum {
-    RB_CYCLE_TENSION,
-    RB_CYCLE_LEAST_STRAIN,
-    RB_CYCLE_MOST_STRAIN,
-    RB_CYCLE_SHEAR,
-    RB_CYCLE_EXTREMES
-};
+/* 1 if the case has this result.  varies: in a history with such columns. */
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, unsigned varies);
+/* 1 if the struct `owner` has this column. */
+int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
+/* The numbers of a solution without its columns, which remain with it. */
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *solution);
+/* The number, or entry i of the column, as a double; owner: the struct that the table
+ * describes. */
+double rb_rolling_number(const rb_rolling_result *r, const void *owner);
+double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
+/* The column itself, of numbers; NULL: the owner has none. */
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
+void rb_rolling_set_number(const rb_rolling_result *r, void *owner, double value);
+/* From mm, N, MPa to other units: the numbers, or the columns of so many rows, that have one. */
+void rb_rolling_numbers_convert(const rb_rolling_results *table, void *owner, rb_units units);
+void rb_rolling_columns_convert(const rb_rolling_results *table, int rows, void *owner,
+                                rb_units units);
 
-/* What fretting has done to each element in the last cycle of a history (Q1). */
-typedef struct rb_rolling_cycle {
-    int n, bodies;
-    int is_over; /* 1: its last row is done */
-    double edge[2];
-    double *sums, *kept; /* RB_CYCLE_SUMS x n, now and at the end of the last row */
-    double *extreme;     /* bodies x RB_CYCLE_EXTREMES x (n + 2) */
-    double *q;           /* n: friction where the cycle began */
-    rb_arena memory;
-} rb_rolling_cycle;
+/* Writes the name with its unit, as in the heads of columns: "max_pressure_MPa".  Returns
+ * heading. */
+enum { RB_ROLLING_HEADING = 40 };
+const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
+                               char heading[RB_ROLLING_HEADING]);
 
-void rb_rolling_cycle_free(rb_rolling_cycle *cycle);
-double *rb_rolling_cycle_extreme(const rb_rolling_cycle *cycle, int body, int which);
-/* Its columns and largest values of a solution; NAN where the model has none. */
-void rb_rolling_cycle_results(const rb_rolling_model *model, rb_rolling_solution *s);
+/* Column k = 1, 2, ... of a study; NULL after the last one. */
+const rb_rolling_result *rb_rolling_study_column(int k);
 
-/* ---- given_tractions.c ------------------------------------------------------------- */
+/* ---- Units ---------------------------------------------------------------------- */
 
-/* From one end of what is loaded to the other: edges of the contact, NAN without one, or the first
- * and the last of given nodes. */
-void rb_rolling_loaded_between(const rb_rolling_model *model, double *from, double *to);
-/* On the surface, where given tractions jump: the mean of both sides; sxx NAN where q jumps. */
-void rb_rolling_given_on_jump(const rb_rolling_model *model, double x, double *sigma);
+/* Converts from mm, N, MPa to other units; call it once only. */
+void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
 
-/* Lengths of the elements in contact and of those among them that stick. */
-void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
-                             double *stick);
+/* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells
+ * the present units. */
+void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units);
+void rb_rolling_history_convert(rb_rolling_history *h, rb_units units);
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 
 #endif

@@ -1,8 +1,10 @@
 /* Shakedown of a body under repeated rolling (theory-bodies.md S1), from the elastic stress
  * below the contact. */
-#include "rolling/solve/results.h"
+#include "rolling/body/body.h"
+#include "rolling/solve/field.h"
 
 #include <float.h>
+#include <math.h>
 
 enum { ACROSS = 161, DEPTHS = 40, HALVINGS = 40 };
 static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */

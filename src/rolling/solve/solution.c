@@ -2,7 +2,17 @@
  * printed.  Zones, forces (4.6), displacements and slip (12), moment and power (4.14), energy, heat
  * (4.8), and at the end what proves it: the residual (4.4), recomputed from the tractions, and the
  * balance of the support. */
-#include "rolling/solve/results.h"
+#include "rolling/body/internal.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/cycle.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/heat.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/power.h"
+#include "rolling/solve/solution.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

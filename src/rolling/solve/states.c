@@ -1,5 +1,6 @@
 /* The states of the steps of a history, stored for rb_rolling_history_follow. */
-#include "rolling/solve/results.h"
+#include "base/base.h"
+#include "rolling/history/history.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,9 @@
 /* Subsurface stress of body A (B8): closed-form strips on the half-plane, with the waves
  * of its layer (L5), waves around a cover (B20), Somigliana's identity on a wheel. */
-#include "rolling/solve/results.h"
+#include "rolling/body/internal.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/field.h"
+#include "rolling/solve/model.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 /* The force of a whole ellipse by strips that are solved one by one (E3). */
-#include "rolling/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
 
 #include <gsl/gsl_math.h>
 

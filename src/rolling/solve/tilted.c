@@ -1,5 +1,8 @@
 /* The tilt under which the pressure has a given moment (U3). */
-#include "rolling/solve/results.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/pressed.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 

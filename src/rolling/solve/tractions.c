@@ -1,5 +1,8 @@
 /* Tractions between the midpoints of the contact elements, for the stress below them (B14). */
-#include "rolling/solve/results.h"
+#include "lcp/contact/contact.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/stress.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

@@ -1,6 +1,12 @@
 /* The potential contact: the interval with elements, which must enclose the whole contact
  * (theory-solvers.md 5.1). */
-#include "rolling/internal.h"
+#include "rolling/body/body.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>
 

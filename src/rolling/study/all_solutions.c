@@ -1,7 +1,13 @@
 /* Several steady solutions of one case, which may exist if friction depends strongly on
  * the state (theory-rolling.md F5). */
-#include "rolling/study/internal.h"
+#include "rolling/case/derived.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/solution.h"
+#include "rolling/study/study.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,13 @@
 /* Discretisation errors from coarser runs (theory-solvers.md 5.1). */
+#include "rolling/body/body.h"
+#include "rolling/body/mesh.h"
+#include "rolling/case/internal.h"
+#include "rolling/solve/patches.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/stress.h"
+#include "rolling/solve/zone.h"
 #include "rolling/study/internal.h"
+#include "rolling/study/study.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

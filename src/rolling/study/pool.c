@@ -1,8 +1,11 @@
 /* A pool of worker processes on this machine that solve the cases of a parameter study,
  * one at a time. */
-#include "rolling/study/internal.h"
+#include "rolling/solve/solution.h"
+#include "rolling/solve/stress.h"
+#include "rolling/study/study.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>

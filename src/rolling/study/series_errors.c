@@ -1,8 +1,14 @@
 /* Error bars of curves and histories: every entry of a column has one, as a scalar of a
  * solution has (theory-solvers.md 5.1). */
+#include "rolling/case/derived.h"
+#include "rolling/solve/columns.h"
+#include "rolling/solve/law.h"
+#include "rolling/solve/zone.h"
 #include "rolling/study/internal.h"
+#include "rolling/study/study.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Parameter studies: cases are distributed one by one to a pool of processes, and rows
  * are passed on in order. */
-#include "rolling/study/internal.h"
+#include "rolling/study/study.h"
 
 #include <stdlib.h>
 

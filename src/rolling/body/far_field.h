@@ -1,0 +1,29 @@
+/* What the rest of wheels adds to half-planes, and changes of bodies to first order. */
+#ifndef ROLLBEM_ROLLING_BODY_FAR_FIELD_H
+#define ROLLBEM_ROLLING_BODY_FAR_FIELD_H
+
+#include "rolling/body/internal.h"
+#include "rolling/solve/variant.h"
+
+/* ---- far_field.c ---------------------------------------------------------------- */
+
+/* 1 if the bodies have a far field of which few points tell all: wheels of one elastic material
+ * whose near field is subtracted, and gaps that say nothing about places without elements. */
+int rb_rolling_has_far_field(const rb_rolling_case *rc);
+/* From the bodies of the model, which have a matrix.  RB_ENOMEM. */
+rb_status rb_rolling_far_field_create(const rb_rolling_model *model, rb_rolling_far_field **far,
+                                      rb_message *why);
+void rb_rolling_far_field_free(rb_rolling_far_field *far);
+/* Adds it to a flexibility that is stored.  RB_ENOMEM. */
+rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f);
+
+/* ---- perturbation.c ------------------------------------------------------------- */
+
+/* Adds to w (2m) what the bodies of v, on its mesh, displace more than those of the model under the
+ * tractions of the model, to first order; x, h: m, of the elements of v, written where A changes.
+ * RB_INACCURATE: elements outside the contact come or go. */
+rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
+                                      const rb_rolling_model *v, double *w, double *x, double *h,
+                                      rb_message *why);
+
+#endif

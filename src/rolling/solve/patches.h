@@ -1,0 +1,58 @@
+/* Patches of the contact and their edges. */
+#ifndef ROLLBEM_ROLLING_SOLVE_PATCHES_H
+#define ROLLBEM_ROLLING_SOLVE_PATCHES_H
+
+#include "rollbem/rolling.h"
+
+/* A patch: neighbouring elements first ... last in contact, and its edges. */
+typedef struct {
+    int first, last;
+    double from, to;
+    int bounded; /* edges that are only known to lie within one element, as in rb_rolling_patch */
+} rb_rolling_run;
+
+/* (E1) The power of the distance from the edge on that side (-1 left, +1 right) with which
+ * the pressure starts there.  Where A slides with q = -+mu p up to the edge, it is
+ * 1/2 + side atan(beta q/p)/pi; without friction, without coupling and in stick 1/2; on a
+ * third body that is softer than the half-planes under an element of such a length 1.  j: an
+ * element near the edge; a slip zone that does not hold its inner neighbour is too short. */
+double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
+                                const rb_contact_state *state, int j, int side);
+
+/* Smallest number of equal elements of a patch whose edges can be computed from the
+ * pressure (theory-rolling.md 4.7). */
+enum { RB_ROLLING_ALIGNED_LEAST = 9 };
+/* And of any elements. */
+enum { RB_ROLLING_PATCH_LEAST = 5 };
+
+/* Vertex of the parabola through (0, 0) and two neighbours (d, f): its height and place.
+ * 0: the parabola has no maximum. */
+static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at)
+{
+    const double left = f[0] / d[0], right = f[1] / d[1];
+    const double curvature = (right - left) / (d[1] - d[0]);
+    const double slope = left - curvature * d[0];
+
+    if (!(curvature < 0.0))
+        return 0;
+    *rise = -slope * slope / (4.0 * curvature);
+    *at = -slope / (2.0 * curvature);
+    return 1;
+}
+/* Finds the next patch from element `at` on; returns 0 if there is none. */
+int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_contact_state *state, int at, rb_rolling_run *run);
+/* The same, but patches are merged if more elements between them would not help: all
+ * patches under a convex gap (single open elements next to an edge are ignored), and
+ * patches that are separated by one open element if large friction between dissimilar
+ * bodies opens every other element. */
+int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                 const rb_contact_state *state, int at, rb_rolling_run *run);
+/* Computes the patches of a solution and the results that depend on all of them.
+ * RB_ENOMEM. */
+rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *solution);
+
+/* Length of the longest element in contact. */
+double rb_rolling_longest_element(int n, const int *zone, const double *h);
+
+#endif

@@ -1,0 +1,16 @@
+/* Searches for the load, the ellipse or the tilt of a case. */
+#ifndef ROLLBEM_ROLLING_SOLVE_PRESSED_H
+#define ROLLBEM_ROLLING_SOLVE_PRESSED_H
+
+#include "rollbem/rolling.h"
+
+/* Finds the load under which the largest pressure of the solved case is that of the case, within
+ * 1e-10; sets pressed_by and, of equal elements without one, zone.  RB_EINVAL: the gap has
+ * corners. */
+rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
+/* Sets the ellipse of a case with a wheel load. */
+rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why);
+/* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
+rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
+
+#endif

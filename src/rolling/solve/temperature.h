@@ -1,0 +1,25 @@
+/* Temperatures of the surfaces. */
+#ifndef ROLLBEM_ROLLING_SOLVE_TEMPERATURE_H
+#define ROLLBEM_ROLLING_SOLVE_TEMPERATURE_H
+
+#include "rollbem/rolling.h"
+
+/* Temperature rise at a point of the surface caused by a unit heat flux that enters the
+ * body between the distances `from` < `to` upstream of the point (T1), at any Peclet
+ * number; conductivity > 0. */
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to);
+
+/* Its temperatures, if it has such columns, and the highest.  RB_ENOMEM, RB_SINGULAR. */
+rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                     rb_message *why);
+
+/* Highest of the temperatures t of elements in contact, by a parabola through the warmest
+ * one and its neighbours, and its place; NAN without contact.  x, zone, t: n. */
+void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
+                                 double *value, double *at);
+void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
+rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   struct rb_rolling_conduction **conduction, double *t_a,
+                                   double *t_b, double *heat_a, double *heat_b, rb_message *why);
+
+#endif
