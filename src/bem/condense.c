@@ -4,12 +4,9 @@
  * (B10). */
 #include "bem/system.h"
 #include "base/sizes.h"
-#include "bem/assemble.h"
-#include "bem/given.h"
 #include "bem/internal.h"
 #include "bem/large.h"
-#include "bem/skeleton.h"
-#include "bem/strip.h"
+#include "bem/subtracted.h"
 #include "base/blas.h"
 
 #include <cblas.h>
@@ -37,303 +34,6 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
     return RB_OK;
 }
 
-/* ---- Singularities subtracted (B10) ------------------------------------------------ */
-
-/* What the strip on a contact element leaves for the boundary elements to solve: the
- * tractions and displacements that it causes where others are given. */
-typedef struct {
-    const rb_bem_system *s;
-    rb_strip *strip; /* one per contact element */
-    double *bonded;  /* 2 bond->n x 2 contact_n: what the loads leave on a bonded contour;
-                        NULL without one */
-} particular;
-
-/* The displacement of one load's strip. */
-typedef struct {
-    const rb_strip *strip;
-    double complex load;
-} strip_load;
-
-static double complex strip_field(rb_bem_material material, double complex z, const void *context)
-{
-    const strip_load *l = context;
-    const rb_strip strip = rb_strip_in(*l->strip, material);
-    return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
-}
-
-/* Boundary values of element k against the strip on contact element c: u_x, u_y (where
- * the displacement is given) or t_x, t_y, under its load along x and along y. */
-static void left_over(const particular *p, int k, int c, double value[2][2])
-{
-    const rb_bem_mesh *mesh = &p->s->mesh;
-    const double complex z = rb_strip_midpoint(mesh, k);
-    const int held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT;
-    const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
-    rb_strip_answer u = {0.0, 0.0}, t = {0.0, 0.0};
-
-    if (p->bonded && k >= p->s->bond->first) {
-        const size_t rows = 2 * (size_t)p->s->bond->n;
-        const double *own = p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
-        for (int direction = 0; direction < 2; direction++)
-            for (int d = 0; d < 2; d++)
-                value[direction][d] = own[(size_t)direction * rows + (size_t)d];
-        return;
-    }
-    if (held_x || held_y)
-        u = rb_strip_displacement(&p->strip[c], z);
-    if (!(held_x && held_y) && k != mesh->contact_first + c)
-        t = rb_strip_traction(&p->strip[c], z, rb_strip_outward(mesh, k));
-    for (int direction = 0; direction < 2; direction++) {
-        const double complex load = direction ? I : 1.0;
-        value[direction][0] = -creal(rb_strip_under(held_x ? u : t, load));
-        value[direction][1] = -cimag(rb_strip_under(held_y ? u : t, load));
-    }
-}
-
-/* Elements whose columns are multiplied at once; rows of one product. */
-enum { BLOCK = 32, SLICE = 256 };
-
-rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
-{
-    const rb_bem_mesh *mesh = &s->mesh;
-    const double size = rb_bem_mesh_size(mesh);
-
-    for (int c = 0; c < mesh->contact_n; c++) {
-        const rb_strip strip = rb_strip_on(mesh, mesh->contact_first + c, s->material, size);
-        for (int k = 0; k < mesh->n; k++)
-            if (rb_strip_depth(&strip, rb_strip_midpoint(mesh, k)) < -1e-12 * size)
-                return rb_fail(why, RB_EINVAL,
-                               "condensation: element %d lies outside the half-plane of "
-                               "contact element %d",
-                               k, c);
-    }
-    return RB_OK;
-}
-
-static rb_status particular_make(const rb_bem_system *s, particular *p)
-{
-    const rb_bem_mesh *mesh = &s->mesh;
-    const double unit = rb_bem_mesh_size(mesh);
-
-    *p = (particular){s, calloc((size_t)mesh->contact_n, sizeof *p->strip), NULL};
-    for (int c = 0; c < mesh->contact_n && p->strip; c++)
-        p->strip[c] = rb_strip_on(mesh, mesh->contact_first + c, s->material, unit);
-    if (!p->strip || !s->bond)
-        return p->strip ? RB_OK : RB_ENOMEM;
-    p->bonded = rb_alloc(2 * (size_t)s->bond->n, 2 * (size_t)mesh->contact_n);
-    if (!p->bonded)
-        return RB_ENOMEM;
-    rb_status status = RB_OK;
-    for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
-        const strip_load load = {&p->strip[k / 2], k % 2 ? I : 1.0};
-        status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
-                                   p->bonded + (size_t)k * 2 * (size_t)s->bond->n);
-    }
-    return status;
-}
-
-/* Element k: its columns of [G, -H] for the values that are left over, from `row` on, and
- * these values. */
-static void left_over_of_element(const particular *p, const rb_assembly *assembly, int k, int row,
-                                 double *columns, double *values)
-{
-    const rb_bem_mesh *mesh = &p->s->mesh;
-    double *out[4] = {NULL, NULL, NULL, NULL}, value[2][2];
-
-    for (int d = 0; d < 2; d++) {
-        const int held = mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT;
-        out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)p->s->ld;
-    }
-    rb_assembly_columns(assembly, k, 1.0, out);
-    for (int c = 0; c < mesh->contact_n; c++) {
-        left_over(p, k, c, value);
-        for (int l = 0; l < 2; l++)
-            for (int d = 0; d < 2; d++)
-                values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
-                    out[d] ? -value[l][d] : value[l][d];
-    }
-}
-
-static rb_status subtracted_loads_dense(const particular *p, double *X)
-{
-    const rb_bem_system *s = p->s;
-    /* Of a block of elements: columns of [G, -H] for the values that are left over (ld x 2
-     * BLOCK), and these (2 BLOCK x loads). */
-    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
-           *values = rb_alloc(2 * BLOCK, 2 * (size_t)s->mesh.contact_n);
-    const int threads = rb_blas_threads(1);
-    rb_assembly assembly;
-    rb_status status =
-        columns && values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
-
-    for (int from = 0; status == RB_OK && from < s->mesh.n; from += BLOCK) {
-        const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-        /* X += [G, -H] times the boundary values left over. All in one parallel region:
-         * threads that wait for a product by one of them would spin. */
-#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) * s->mesh.n >     \
-                                                             rb_pairs_for_threads / 32)
-        {
-#pragma omp for schedule(static)
-            for (int k = from; k < to; k++)
-                left_over_of_element(p, &assembly, k, 2 * (k - from), columns, values);
-#pragma omp for schedule(static)
-            for (int row = 0; row < s->dofs; row += SLICE)
-                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
-                            s->dofs - row < SLICE ? s->dofs - row : SLICE, 2 * s->mesh.contact_n,
-                            2 * (to - from), 1.0, columns + row, s->ld, values, 2 * BLOCK, 1.0,
-                            X + row, s->ld);
-        }
-    }
-    if (status == RB_OK)
-        rb_assembly_end(&assembly);
-    rb_blas_threads(threads);
-    free(columns);
-    free(values);
-    return status;
-}
-
-/* ---- The same on long boundaries, by products of a tree ----------------------------- */
-
-/* Elements near the contact, whose values every load decides by itself, and those far
- * from it, where a few loads stand for all. */
-typedef struct {
-    int near, far;
-    int *element; /* the near ones first */
-    int sampled;  /* far elements that tell which loads stand for the others */
-    int *sample;
-    int kept;        /* so many loads stand for all */
-    int *order;      /* loads: these first */
-    double *T;       /* kept x others */
-    rb_arena memory; /* of the arrays */
-} split;
-
-static double distance_from(double complex middle, const rb_bem_mesh *mesh, int k)
-{
-    return cabs(rb_strip_midpoint(mesh, k) - middle);
-}
-
-/* Fields of loads vary over lengths of a part of the distance from them: one element on
- * either side for every twentieth that the distance grows by tells them. */
-static rb_status split_elements(const rb_bem_mesh *mesh, split *p)
-{
-    enum { PARTS = 20, MOST = 2000 };
-    const int n = mesh->n, from = mesh->contact_first, to = from + mesh->contact_n - 1;
-    const double complex a = mesh->x0[from] + mesh->y0[from] * I,
-                         b = mesh->x1[to] + mesh->y1[to] * I, middle = 0.5 * (a + b);
-    const double reach = cabs(b - a); /* twice the radius of the contact */
-    char taken[2 * MOST] = {0};
-
-    p->element = rb_arena_ints(&p->memory, (size_t)n);
-    p->sample = rb_arena_ints(&p->memory, 2 * MOST);
-    if (p->memory.failed)
-        return RB_ENOMEM;
-    for (int k = 0; k < n; k++)
-        if (distance_from(middle, mesh, k) < reach)
-            p->element[p->near++] = k;
-    for (int k = 0; k < n; k++) {
-        const double r = distance_from(middle, mesh, k) / reach;
-        if (r < 1.0)
-            continue;
-        const int right = creal(rb_strip_midpoint(mesh, k)) > creal(middle),
-                  bin = (int)fmin(PARTS * log(r), MOST - 1);
-        p->element[p->near + p->far++] = k;
-        if (!taken[2 * bin + right])
-            p->sample[p->sampled++] = k;
-        taken[2 * bin + right] = 1;
-    }
-    return RB_OK;
-}
-
-/* Which loads stand for all far from the contact: traction times distance over the shear
- * modulus is of the order of a displacement. */
-static rb_status choose_loads(const particular *p, split *far)
-{
-    const rb_bem_mesh *mesh = &p->s->mesh;
-    const int loads = 2 * mesh->contact_n;
-    const double complex middle =
-        rb_strip_midpoint(mesh, mesh->contact_first + mesh->contact_n / 2);
-    rb_skeleton far_field;
-    rb_status s = rb_skeleton_alloc(2 * far->sampled, loads, &far_field);
-
-    if (s != RB_OK)
-        return s;
-    for (int i = 0; i < far->sampled; i++) {
-        const int k = far->sample[i];
-        const double over = distance_from(middle, mesh, k) / p->s->material.shear;
-        for (int c = 0; c < mesh->contact_n; c++) {
-            double value[2][2];
-            left_over(p, k, c, value);
-            for (int l = 0; l < 2; l++)
-                for (int d = 0; d < 2; d++)
-                    far_field.K[2 * i + d + (size_t)(2 * c + l) * (size_t)far_field.ld] =
-                        value[l][d] *
-                        (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
-        }
-    }
-    s = rb_skeleton_reduce(&far_field, 1e-2 * p->s->tolerance, &far->memory, &far->kept,
-                           &far->order, &far->T);
-    rb_skeleton_free(&far_field);
-    return s;
-}
-
-/* X += B value of some elements under some loads; load: which; NULL: all. */
-static rb_status multiply_values(const particular *p, const rb_given *given, int count,
-                                 const int *element, int loads, const int *load, double *X)
-{
-    const size_t rows = 2 * (size_t)count;
-    double *value = rb_alloc(rows, (size_t)loads);
-
-    if (!value)
-        return RB_ENOMEM;
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
-    for (int i = 0; i < count; i++)
-        for (int l = 0; l < loads; l++) {
-            const int which = load ? load[l] : l;
-            double own[2][2];
-            left_over(p, element[i], which / 2, own);
-            for (int d = 0; d < 2; d++)
-                value[2 * (size_t)i + (size_t)d + (size_t)l * rows] = own[which % 2][d];
-        }
-    const rb_status s = rb_given_multiply(given, count, element, loads, value, X);
-    free(value);
-    return s;
-}
-
-static rb_status subtracted_loads_long(const particular *p, double *X)
-{
-    const rb_bem_system *s = p->s;
-    const int n = s->dofs, loads = 2 * s->mesh.contact_n;
-    rb_given *given = NULL;
-    split parts = {0};
-    double *few = NULL, *rest = NULL;
-    rb_status status = split_elements(&s->mesh, &parts);
-
-    if (status == RB_OK)
-        status = choose_loads(p, &parts);
-    if (status == RB_OK)
-        status = rb_given_create(&s->mesh, s->material, s->unit, s->tolerance, &given);
-    if (status == RB_OK)
-        status = multiply_values(p, given, parts.near, parts.element, loads, NULL, X);
-    const int kept = parts.kept, others = loads - kept;
-    if (status == RB_OK) {
-        few = rb_arena_doubles(&parts.memory, (size_t)n, (size_t)kept);
-        rest = rb_arena_doubles(&parts.memory, (size_t)n, (size_t)others + 1);
-        status = parts.memory.failed
-                     ? RB_ENOMEM
-                     : multiply_values(p, given, parts.far, parts.element + parts.near, kept,
-                                       parts.order, few);
-    }
-    if (status == RB_OK && others > 0)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, kept, 1.0, few, n,
-                    parts.T, kept, 0.0, rest, n);
-    for (int l = 0; status == RB_OK && l < loads; l++)
-        cblas_daxpy(n, 1.0,
-                    l < kept ? few + (size_t)l * (size_t)n : rest + (size_t)(l - kept) * (size_t)n,
-                    1, X + (size_t)parts.order[l] * (size_t)n, 1);
-    rb_given_free(given);
-    return rb_arena_done(&parts.memory, status);
-}
-
 void rb_bem_contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
                           double frame[2][2])
 {
@@ -346,35 +46,21 @@ void rb_bem_contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals
 
 /* Unit tractions on the contact, given values in the last column: the right-hand sides,
  * solved.  p: NULL where nothing is subtracted. */
-static rb_status solve_loads(const rb_bem_system *s, const particular *p, double *X)
+static rb_status solve_loads(const rb_bem_system *s, const rb_subtracted *p, double *X)
 {
     const rb_bem_mesh *mesh = &s->mesh;
-    const int n = mesh->contact_n, m = n + 1;
-    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)n;
+    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)mesh->contact_n;
     rb_status status = RB_OK;
 
     memcpy(X + rows * loads, s->b, (size_t)s->dofs * sizeof *X);
-    if (p) {
-        memset(X, 0, rows * loads * sizeof *X);
-        status = (s->A ? subtracted_loads_dense : subtracted_loads_long)(p, X);
-    } else {
+    if (p)
+        status = rb_subtracted_loads(p, X);
+    else
         memcpy(X, s->Gc, rows * loads * sizeof *X);
-    }
     if (status == RB_OK)
         status = solve_contact(s, X);
-    /* The strips' own displacements, on top of what was solved for. */
-    for (int c = 0; status == RB_OK && p && c < n; c++) {
-        double *U = X + 2 * (size_t)c * rows + (size_t)(s->dofs - 2 * m);
-        for (int i = 0; i < m; i++) {
-            const rb_strip_answer answer = rb_strip_displacement(
-                &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
-            for (int l = 0; l < 2; l++) {
-                const double complex u = rb_strip_under(answer, l ? I : 1.0);
-                U[2 * i + (size_t)l * rows] += creal(u);
-                U[2 * i + 1 + (size_t)l * rows] += cimag(u);
-            }
-        }
-    }
+    if (status == RB_OK && p)
+        rb_subtracted_add_strips(p, X);
     return status;
 }
 
@@ -393,17 +79,17 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     rb_phase("flexibility of the contact");
     /* (B10) For each contact element the half-plane's solution of its load, whose logarithm at the
      * ends of the element constant elements resolve badly. */
-    particular p = {0};
-    rb_status s = subtract ? particular_make(system, &p) : RB_OK;
+    rb_subtracted *p = NULL;
+    rb_status s = subtract ? rb_subtracted_create(system, &p) : RB_OK;
 
     /* A X = [Gc, b]: two unit tractions on each contact element, and the given values. */
     X = rb_large_alloc(ld, 2 * (size_t)n + 1);
     if (!X)
         s = RB_ENOMEM;
     if (s == RB_OK)
-        s = solve_loads(system, subtract ? &p : NULL, X);
-    free(p.strip);
-    free(p.bonded);
+        s = solve_loads(system, p, X);
+    if (p)
+        rb_subtracted_free(p);
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);
     if (s == RB_INTERRUPTED)

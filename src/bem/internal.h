@@ -72,6 +72,11 @@ rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
 /* x and h of elements between these ends (n + 2). */
 void rb_bem_flexibility_place(const double *ends, rb_bem_flexibility *f);
 
+/* x, h and w0 of as many elements. */
+void rb_bem_flexibility_copy_points(const rb_bem_flexibility *from, rb_bem_flexibility *to);
+/* Columns of B, mirrored, onto those of A, 2m x 2n each; leading dimensions 2m and lda. */
+void rb_bem_add_mirrored_columns(int n, int m, const double *B, double *A, int lda);
+
 /* A flexibility with x, h, w0 zeroed and a dense matrix of zeros behind it; *F: that
  * matrix, 2m x 2n with leading dimension 2m, borrowed.  RB_ENOMEM leaves f empty. */
 rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F);

@@ -145,3 +145,15 @@ rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why)
                                 "the body is not on the left of its contours: outer ones run "
                                 "counter-clockwise, holes clockwise");
 }
+
+rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why)
+{
+    if (n_c < 1 || !ends)
+        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at least 1", n_c);
+    for (int i = 0; i <= n_c; i++)
+        if (!(isfinite(ends[i]) && isfinite(ends[i + 1]) && ends[i] < ends[i + 1]))
+            return rb_fail(why, RB_EINVAL,
+                           "contact element %d from x = %g to %g: expected increasing ends", i,
+                           ends[i], ends[i + 1]);
+    return RB_OK;
+}

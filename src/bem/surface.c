@@ -12,18 +12,6 @@ rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum)
     return (rb_bem_surface){.material = material, .datum = datum};
 }
 
-rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why)
-{
-    if (n_c < 1 || !ends)
-        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at least 1", n_c);
-    for (int i = 0; i <= n_c; i++)
-        if (!(isfinite(ends[i]) && isfinite(ends[i + 1]) && ends[i] < ends[i + 1]))
-            return rb_fail(why, RB_EINVAL,
-                           "contact element %d from x = %g to %g: expected increasing ends", i,
-                           ends[i], ends[i + 1]);
-    return RB_OK;
-}
-
 rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
 {
     rb_status s = rb_bem_material_check(body->material, why);

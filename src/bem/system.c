@@ -42,8 +42,10 @@ void rb_bem_system_free(rb_bem_system *system)
         return;
     rb_bem_mesh_free(&system->mesh);
     free(system->A);
-    rb_hierarchical_free(system->h);
-    rb_bond_free(system->bond);
+    if (system->h)
+        rb_hierarchical_free(system->h);
+    if (system->bond)
+        rb_bond_free(system->bond);
     free(system->b);
     free(system->Gc);
     free(system->unit);
@@ -75,10 +77,8 @@ static double *column_of(const rb_bem_system *s, int dof)
     return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
 }
 
-/* b += G t for given tractions, b -= H u for given displacements; value: 2n, t or u as
- * the conditions have it. */
-static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly, const double *value,
-                           double *b)
+rb_status rb_bem_system_add_given(const rb_bem_system *s, const rb_assembly *assembly,
+                                  const double *value, double *b)
 {
     const size_t dofs = (size_t)s->dofs;
     double *scratch = rb_alloc(dofs, 4);
@@ -163,7 +163,7 @@ static rb_status assemble(rb_bem_system *s)
     /* A bonded core and the given values, which move to the right-hand side. */
     status = stop ? RB_INTERRUPTED : s->bond ? add_bond(s, &assembly) : RB_OK;
     if (status == RB_OK)
-        status = add_given(s, &assembly, s->mesh.value, s->b);
+        status = rb_bem_system_add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
     /* Of an incompressible body inside a contour that is held everywhere a uniform pressure moves
      * nothing: a term on those columns fixes it. */
@@ -338,86 +338,4 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
                                rb_bem_system **system, rb_message *why)
 {
     return rb_bem_system_create_within(mesh, material, INFINITY, system, why);
-}
-
-rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
-{
-    if (!s->A) {
-        /* Solutions come in the order of the dofs, the unknowns are turned by `offset`. */
-        const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
-        double *turned = rb_alloc(dofs, 1);
-        rb_status status = turned ? rb_hierarchical_solve(s->h, columns, X) : RB_ENOMEM;
-
-        for (int k = 0; k < columns && status == RB_OK; k++) {
-            double *x = X + (size_t)k * dofs;
-            memcpy(turned, x + offset, (dofs - offset) * sizeof *x);
-            memcpy(turned + dofs - offset, x, offset * sizeof *x);
-            memcpy(x, turned, dofs * sizeof *x);
-        }
-        free(turned);
-        return status;
-    }
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, columns, s->A, s->ld, s->pivot, X, s->dofs);
-    return RB_OK;
-}
-
-/* x: the right-hand side, then the unknowns. */
-static rb_status solve_values(const rb_bem_system *s, double *x, const double *value, double *u,
-                              double *t)
-{
-    const rb_status status = rb_bem_system_solve_columns(s, 1, x);
-
-    if (status == RB_OK) {
-        /* x -> u and t: what was given (value), what was solved for. */
-        for (int dof = 0; dof < s->dofs; dof++) {
-            const double unknown = x[(dof - s->offset + s->dofs) % s->dofs];
-            const int held = s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
-            u[dof] = held ? value[dof] : unknown;
-            t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
-        }
-        if (s->bond) {
-            const int from = 2 * s->bond->first, n = 2 * s->bond->n;
-            cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from, 1, 1.0,
-                        u + from, 1);
-        }
-    }
-    return status;
-}
-
-rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact, double *u,
-                              double *t)
-{
-    const rb_bem_system *s = system;
-    const int n = s->dofs, loads = 2 * s->mesh.contact_n;
-    double *x = rb_alloc((size_t)n, 2);
-    if (!x)
-        return RB_ENOMEM;
-    double *value = x + n;
-    memcpy(x, s->b, (size_t)n * sizeof *x);
-    memcpy(value, s->mesh.value, (size_t)n * sizeof *value);
-    for (int k = 0; k < loads; k++)
-        value[2 * s->mesh.contact_first + k] = t_contact ? t_contact[k] : 0.0;
-    if (t_contact && loads)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact, 1, 1.0, x,
-                    1);
-    const rb_status status = solve_values(s, x, value, u, t);
-    free(x);
-    return status;
-}
-
-rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value, double *u,
-                                     double *t)
-{
-    double *x = rb_alloc((size_t)s->dofs, 1);
-    rb_assembly assembly;
-    rb_status status = x ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
-
-    if (status == RB_OK) {
-        status = add_given(s, &assembly, value, x);
-        rb_assembly_end(&assembly);
-    }
-    if (status == RB_OK)
-        status = solve_values(s, x, value, u, t);
-    free(x);
-    return status;
 }

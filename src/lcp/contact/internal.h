@@ -134,6 +134,8 @@ struct rb_contact_operator {
 /* Allocates arrays of zeros for the n elements of a problem whose operator is set; frees
  * the operator if there is no memory. */
 rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
+/* 1: the given force is all that friction can carry. */
+int rb_contact_slides_fully(const rb_contact_problem *problem);
 
 /* ---- dense.c ----------------------------------------------------------------------- */
 
@@ -175,10 +177,57 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_conta
  * normal and tangential problems.  RB_MAXITER: it cycles; RB_SINGULAR. */
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state);
 
+/* ---- attempt.c --------------------------------------------------------------------- */
+
+/* The scaled residual of the state.  RB_ENOMEM. */
+rb_status rb_contact_measure(const rb_contact_problem *problem, rb_contact_state *state);
+/* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
+ * their zones already, as Newton's do.  RB_ENOMEM. */
+rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact_state *state);
+/* 1: s is RB_OK, and the residual is within the tolerance. */
+int rb_contact_is_solved(rb_status s, const rb_contact_problem *problem,
+                         const rb_contact_options *options, const rb_contact_state *state);
+/* s, but RB_INACCURATE where the residual says that a solution is none. */
+rb_status rb_contact_proven(rb_status s, const rb_contact_problem *problem,
+                            const rb_contact_options *options, const rb_contact_state *state);
+/* Lemke's method, attempt by attempt: forms and covering vectors (theory.md K5). */
+rb_status rb_contact_by_lemke(rb_contact_problem *problem, const rb_contact_options *options,
+                              rb_contact_state *state, rb_message *why);
+/* rb_contact_newton, completed. */
+rb_status rb_contact_by_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                               int warm, rb_contact_state *state);
+/* What Newton's method has ended with, as s says, completed. */
+rb_status rb_contact_end_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                                rb_status s, rb_contact_state *state);
+
+/* ---- by_friction.c ----------------------------------------------------------------- */
+
+/* Newton's method from a share of the friction to all of it. */
+rb_status rb_contact_by_friction(rb_contact_problem *problem, const rb_contact_options *options,
+                                 rb_contact_state *state);
+
 /* ---- solve.c ----------------------------------------------------------------------- */
 
-/* Whether the given force is all that friction can carry. */
-int rb_contact_slides_fully(const rb_contact_problem *problem);
+/* Solves a problem whose given load, force and motion friction can follow. */
+rb_status rb_contact_solve_given(rb_contact_problem *problem, const rb_contact_options *options,
+                                 int warm, rb_contact_state *state, rb_message *why);
+
+/* ---- force.c ----------------------------------------------------------------------- */
+
+/* A given force that is all that friction can carry (rb_contact_slides_fully). */
+rb_status rb_contact_solve_full_sliding(rb_contact_problem *problem,
+                                        const rb_contact_options *options, rb_contact_state *state,
+                                        rb_message *why);
+/* RB_EINVAL: a given force, or the resistance of a free axle, is more than friction carries;
+ * refused->refused_at says at which creepage it carries most. */
+rb_status rb_contact_check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
+                                    rb_contact_state *refused, rb_message *why);
+/* A given force that all methods fail on: the creepage by bisection.  RB_MAXITER: not found. */
+rb_status rb_contact_by_creepage(rb_contact_problem *problem, const rb_contact_options *options,
+                                 rb_contact_state *state);
+/* A layer that yields (Y1). */
+rb_status rb_contact_solve_yielding(rb_contact_problem *problem, const rb_contact_options *options,
+                                    int warm, rb_contact_state *state, rb_message *why);
 
 /* ---- path.c ------------------------------------------------------------------------ */
 

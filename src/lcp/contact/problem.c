@@ -181,3 +181,9 @@ int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contac
     return problem->step_limit == 0 || state->iterations < problem->step_limit ||
            rb_contact_operator_matrix(problem->op).F;
 }
+
+int rb_contact_slides_fully(const rb_contact_problem *problem)
+{
+    return problem->force_given && problem->force == 0.0 && problem->axle == 0.0 &&
+           fabs(problem->force_ratio) >= 1.0 - 1e-12;
+}

@@ -35,6 +35,17 @@ void rb_contact_state_free(rb_contact_state *state)
     memset(state, 0, sizeof *state);
 }
 
+void rb_contact_copy_start(const rb_contact_state *from, rb_contact_state *to)
+{
+    const size_t count = (size_t)to->n;
+
+    memcpy(to->zone, from->zone, count * sizeof(int));
+    memcpy(to->p, from->p, count * sizeof(double));
+    memcpy(to->q, from->q, count * sizeof(double));
+    to->delta = from->delta;
+    to->xi = from->xi;
+}
+
 void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,
                            double *gap, double *lambda)
 {

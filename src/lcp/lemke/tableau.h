@@ -77,6 +77,8 @@ void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving);
 void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch, double *x);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
+/* No pivot is kept: all columns that stand in T are up to date. */
+void rb_lcp_tableau_no_pivots(lcp_tableau *t);
 /* Computes T and q again from the data and the basis.  RB_SINGULAR: a pivot is zero (one
  * that is rounding shows in the residual), t is as before; RB_ENOMEM. */
 rb_status rb_lcp_tableau_rebuild(lcp_tableau *t);

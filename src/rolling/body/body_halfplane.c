@@ -183,16 +183,11 @@ double rb_rolling_poisson_at(const rb_rolling_body *body, double depth)
     return layers > 0 ? body->base_poisson : body->poisson;
 }
 
-static int has_layer(const rb_rolling_body *body)
-{
-    return body->layer > 0.0;
-}
-
 static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
                              rb_message *why)
 {
     const char *layers = *which ? "layers-b" : "layers";
-    if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
+    if (rb_rolling_has_layer(b) && b->support != RB_BEM_HALFPLANE)
         return rb_refuse(why,
                          b->stack ? layers
                          : *which ? "layer-thickness-b"
@@ -207,37 +202,32 @@ static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b
     if (b->layer_base == RB_BASE_SMOOTH && (b->stack || b->memory.n > 0))
         return rb_refuse(why, *which ? "layer-base-b" : "layer-base",
                          "smooth: of one elastic layer only");
-    return has_layer(b) && b->base_young > 0.0
+    return rb_rolling_has_layer(b) && b->base_young > 0.0
                ? rb_rolling_check_poisson(rc, *which ? "base-poisson-b" : "base-poisson",
                                           b->base_poisson, why)
                : RB_OK;
 }
 
 static const rb_rolling_parameter layer_parameters[] = {
-    {"base-young", has_layer, "a base has its layer on it, see --layer-thickness"},
-    {"base-poisson", has_layer, "a base has its layer on it, see --layer-thickness"},
-    {"layer-base", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"base-young", rb_rolling_has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"base-poisson", rb_rolling_has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"layer-base", rb_rolling_has_layer, "a base has its layer on it, see --layer-thickness"},
     {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
                                                .support = RB_BEM_HALFPLANE,
-                                               .holds = has_layer,
+                                               .holds = rb_rolling_has_layer,
                                                .can = HALFPLANE | RB_BODY_ELASTIC | RB_BODY_STRESS,
                                                .parameters = layer_parameters,
                                                .check = check_layer};
 
 /* ---- With memory ------------------------------------------------------------------- */
 
-static int has_memory(const rb_rolling_body *body)
-{
-    return body->memory.n > 0;
-}
-
 static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
                                                     .support = RB_BEM_HALFPLANE,
-                                                    .holds = has_memory,
+                                                    .holds = rb_rolling_has_memory,
                                                     .can = RB_BODY_FLAT | RB_BODY_TURNS |
                                                            RB_BODY_BOUNDARY | RB_BODY_STRESS,
                                                     .parameters = relaxation_parameters};

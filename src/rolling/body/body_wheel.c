@@ -104,7 +104,8 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
                           .ratio = body->memory.ratio,
                           .length = length};
 
-    rb_rolling_memory_lengths(rc, body, length);
+    if (rb_rolling_has_memory(body))
+        rb_rolling_memory_lengths(rc, body, length);
     if (rb_rolling_has_elastic_core(body)) {
         wheel.hub = hub;
         wheel.core = rb_rolling_base_material(rc, body);

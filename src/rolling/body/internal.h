@@ -50,6 +50,16 @@ struct rb_rolling_body_kind {
     double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
 };
 
+/* Whether a body has these additions. */
+static inline int rb_rolling_has_layer(const rb_rolling_body *body)
+{
+    return body->layer > 0.0;
+}
+static inline int rb_rolling_has_memory(const rb_rolling_body *body)
+{
+    return body->memory.n > 0;
+}
+
 /* All rows; NULL ends the list. */
 extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 

@@ -15,6 +15,11 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x, cons
 
 /* ---- mesh.c --------------------------------------------------------------------- */
 
+static inline double rb_rolling_midpoint(const rb_rolling_mesh *mesh, int i)
+{
+    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+}
+
 /* Computes the gaps at the midpoints with the irregularity at its present place.
  * RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
@@ -38,6 +43,16 @@ int rb_rolling_is_convex(const rb_rolling_case *rc);
 /* The interval in which elements may lie: on the lower half of every round body, within
  * the table and one period. */
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
+
+/* Half-width of the lower half of every round body.  Half-planes under a table are flat. */
+double rb_rolling_lower_half(const rb_rolling_case *rc);
+/* RB_EINVAL: elements from `from` to `to` do not stay on the lower half of every round body. */
+rb_status rb_rolling_check_extent(const rb_rolling_case *rc, double from, double to,
+                                  rb_message *why);
+/* Zeros for n elements.  RB_ENOMEM. */
+rb_status rb_rolling_mesh_alloc(int n, rb_rolling_mesh *mesh);
+
+/* ---- mesh_graded.c -------------------------------------------------------------- */
 
 /* A patch for fitted elements, and how far the elements must extend beyond its edges. */
 typedef struct {

@@ -89,7 +89,7 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
             .h_right = length_of(mesh, run.last)};
         complete = add_patch(&span, found);
     }
-    if (model->state.status == RB_ZONE)
+    if (model->state.status == RB_ZONE && !rb_rolling_is_convex(model->rc))
         s = rb_rolling_find_overlap(model, &model->state, &overlap);
     for (int k = 0; complete && k < overlap.count; k++) {
         const double room = 0.1 * (overlap.to[k] - overlap.from[k]);

@@ -52,10 +52,15 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_mesh_free(&model->mesh);
     free(model->carried.temperature);
     free(model->carried.yielded);
-    rb_rolling_conduction_free(model->conduction);
-    rb_rolling_given_free(model->given);
-    rb_rolling_cycle_free(model->cycle);
-    rb_rolling_far_field_free(model->far);
+    /* What few models have: */
+    if (model->conduction)
+        rb_rolling_conduction_free(model->conduction);
+    if (model->given)
+        rb_rolling_given_free(model->given);
+    if (model->cycle)
+        rb_rolling_cycle_free(model->cycle);
+    if (model->far)
+        rb_rolling_far_field_free(model->far);
     rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }

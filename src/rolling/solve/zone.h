@@ -6,14 +6,6 @@
 
 /* ---- zone.c --------------------------------------------------------------------- */
 
-/* RB_EINVAL: a layer, cover or rim is compressed by all of its thickness. */
-rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why);
-/* Called at the end of a solution, a history or a curve with status s.  RB_EINVAL: a
- * layer or cover is crushed, or needs shorter elements than those in contact, which may
- * also be the reason for a failure.  Only meshes of results are checked; coarse meshes
- * used before may be too coarse. */
-rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
-                                          rb_message *why);
 /* Solves on equal elements in the given potential contact, or in one that is found and
  * encloses the contact.  coarse: elements may be too long for separate patches; later
  * searches begin with the potential contact of this one.  RB_ZONE: no potential contact
@@ -28,6 +20,17 @@ rb_status rb_rolling_solve_punch(rb_rolling_model *model, rb_message *why);
 void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
                            double *level);
 
+/* ---- layer_resolved.c --------------------------------------------------------- */
+
+/* RB_EINVAL: a layer, cover or rim is compressed by all of its thickness. */
+rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why);
+/* Called at the end of a solution, a history or a curve with status s.  RB_EINVAL: a
+ * layer or cover is crushed, or needs shorter elements than those in contact, which may
+ * also be the reason for a failure.  Only meshes of results are checked; coarse meshes
+ * used before may be too coarse. */
+rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
+                                          rb_message *why);
+
 /* ---- missed_contact.c ----------------------------------------------------------- */
 
 enum { RB_MOST_OVERLAPS = 16 };
@@ -38,10 +41,12 @@ typedef struct {
     double from[RB_MOST_OVERLAPS], to[RB_MOST_OVERLAPS];
 } rb_rolling_overlap;
 
-/* Searches along the whole table; other gaps are convex, so that the bodies cannot touch
- * outside the contact (theory-solvers.md 5.1).  RB_ENOMEM. */
+/* Searches along all of a gap that is not convex; under a convex one (rb_rolling_is_convex) the
+ * bodies cannot touch outside the contact (theory-solvers.md 5.1).  RB_ENOMEM. */
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
+
+/* ---- enclosed.c --------------------------------------------------------------- */
 
 /* RB_ZONE: an element at an end of the mesh is in contact, so that the contact may extend
  * further, or the bodies overlap where there is no midpoint of an element.  state: of the
