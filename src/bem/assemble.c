@@ -5,6 +5,7 @@
 #include "bem/internal.h"
 #include "base/blas.h"
 
+#include <cblas.h>
 #include <stdlib.h>
 
 /* The 2 x 2 blocks of one element seen from the point p (B3): the integrals of Kelvin's kernels T
@@ -66,6 +67,30 @@ void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor, do
     rb_constants k = rb_constants_make(&e, assembly->material);
     rb_constants_scale_G(&k, G_factor);
     rb_column_variant_get(0)->fill(&k, &e, j, &assembly->midpoints, out);
+}
+
+rb_status rb_assembly_add_given(const rb_assembly *assembly, const double *value, double *b)
+{
+    const rb_bem_mesh *mesh = assembly->mesh;
+    const size_t dofs = 2 * (size_t)mesh->n;
+    double *scratch = rb_alloc(dofs, 4);
+    if (!scratch)
+        return RB_ENOMEM;
+    double *const out[4] = {scratch, scratch + dofs, scratch + 2 * dofs, scratch + 3 * dofs};
+    for (int j = 0; j < mesh->n; j++) {
+        const double *own = value + 2 * j;
+        if (own[0] == 0.0 && own[1] == 0.0)
+            continue;
+        rb_assembly_columns(assembly, j, 1.0, out);
+        for (int k = 0; k < 2; k++) {
+            if (mesh->condition[2 * j + k] == RB_BEM_DISPLACEMENT)
+                cblas_daxpy(2 * mesh->n, -own[k], out[k], 1, b, 1);
+            else
+                cblas_daxpy(2 * mesh->n, own[k], out[2 + k], 1, b, 1);
+        }
+    }
+    free(scratch);
+    return RB_OK;
 }
 
 rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H, double *G,

@@ -77,30 +77,6 @@ static double *column_of(const rb_bem_system *s, int dof)
     return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
 }
 
-rb_status rb_bem_system_add_given(const rb_bem_system *s, const rb_assembly *assembly,
-                                  const double *value, double *b)
-{
-    const size_t dofs = (size_t)s->dofs;
-    double *scratch = rb_alloc(dofs, 4);
-    if (!scratch)
-        return RB_ENOMEM;
-    double *const out[4] = {scratch, scratch + dofs, scratch + 2 * dofs, scratch + 3 * dofs};
-    for (int j = 0; j < s->mesh.n; j++) {
-        const double *own = value + 2 * j;
-        if (own[0] == 0.0 && own[1] == 0.0)
-            continue;
-        rb_assembly_columns(assembly, j, 1.0, out);
-        for (int k = 0; k < 2; k++) {
-            if (s->mesh.condition[2 * j + k] == RB_BEM_DISPLACEMENT)
-                cblas_daxpy(s->dofs, -own[k], out[k], 1, b, 1);
-            else
-                cblas_daxpy(s->dofs, own[k], out[2 + k], 1, b, 1);
-        }
-    }
-    free(scratch);
-    return RB_OK;
-}
-
 /* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C). */
 static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
 {
@@ -163,7 +139,7 @@ static rb_status assemble(rb_bem_system *s)
     /* A bonded core and the given values, which move to the right-hand side. */
     status = stop ? RB_INTERRUPTED : s->bond ? add_bond(s, &assembly) : RB_OK;
     if (status == RB_OK)
-        status = rb_bem_system_add_given(s, &assembly, s->mesh.value, s->b);
+        status = rb_assembly_add_given(&assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
     /* Of an incompressible body inside a contour that is held everywhere a uniform pressure moves
      * nothing: a term on those columns fixes it. */

@@ -2,7 +2,6 @@
 #ifndef ROLLBEM_BEM_SYSTEM_H
 #define ROLLBEM_BEM_SYSTEM_H
 
-#include "bem/assemble.h"
 #include "bem/bond.h"
 #include "bem/hierarchical.h"
 #include "bem/bem.h"
@@ -33,11 +32,6 @@ struct rb_bem_system {
 /* As rb_bem_system_create, the matrix dense or hierarchical at any size: to compare. */
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                                   rb_bem_system **system, rb_message *why);
-
-/* b += G t for given tractions, b -= H u for given displacements; value: 2n, t or u as the
- * conditions have it.  RB_ENOMEM. */
-rb_status rb_bem_system_add_given(const rb_bem_system *s, const rb_assembly *assembly,
-                                  const double *value, double *b);
 
 /* u and t (2n each) under other given values than the mesh's: value (2n) holds u where
  * the displacement is given, t elsewhere, also on the contact. */

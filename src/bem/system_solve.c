@@ -82,7 +82,7 @@ rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value
     rb_status status = x ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
     if (status == RB_OK) {
-        status = rb_bem_system_add_given(s, &assembly, value, x);
+        status = rb_assembly_add_given(&assembly, value, x);
         rb_assembly_end(&assembly);
     }
     if (status == RB_OK)
