@@ -65,6 +65,9 @@ static const words histories[] = {
       "relaxation-ratio 1 time-step 0.01 history tests/data/slopes_rest.tsv"}},
     {{"support halfplane contact-elements 24 zone 2 formulation static relaxation-time 0.01 "
       "relaxation-ratio 1 interlayer-normal 2e-6 history tests/data/slopes_rest.tsv"}},
+    /* on a wheel, whose elements are equal arcs of another circle when the radius is another one */
+    {{"support arc contact-elements 14 outer-elements 50 formulation static relaxation-time 0.01 "
+      "relaxation-ratio 1 time-step 0.01 history tests/data/slopes_rest.tsv"}},
 };
 
 TEST(histories_have_derivatives)

@@ -55,8 +55,9 @@ typedef struct {
     const rb_rolling_observer *observer; /* or NULL */
     const rb_rolling_states *found;      /* of the rows, to follow without solving; or NULL */
     const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
+    const rb_rolling_mesh *elements;     /* that `scale` moves the ends of; or NULL */
     double compression;                  /* of boundaries, where states are found */
-    double scale;                        /* of the elements of `found` */
+    double scale;                        /* of `elements` */
     int is_variant;                      /* 1: of the history that has found them */
     rb_rolling_model *model;
     rb_rolling_history *history;
@@ -762,21 +763,19 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
         return rb_rolling_model_create(&widest, r->model, why);
     if (r->like)
         return rb_rolling_variant_place(r->like, &widest, 0.0, r->scale, r->model, why);
-    const size_t n = (size_t)r->found->n;
-    rb_arena scratch = {0};
-    double *x = rb_arena_doubles(&scratch, n, 1), *h = rb_arena_doubles(&scratch, n, 1);
-    const rb_rolling_elements elements = {.are_equal = 1, .n = r->found->n, .x = x, .h = h};
-    if (scratch.failed)
-        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory for %d elements",
-                       r->found->n);
-    for (size_t i = 0; i < n; i++) {
-        x[i] = r->scale * r->found->x[i];
-        h[i] = r->scale * r->found->h[i];
-    }
     rb_rolling_plan plan = rb_rolling_plan_of(&widest);
+    rb_rolling_mesh mesh = {0};
     plan.compression = r->compression;
-    return rb_arena_done(&scratch,
-                         rb_rolling_model_of_result(&widest, &plan, &elements, r->model, why));
+    if (r->elements) { /* equal arcs, also of another circle */
+        const double *ends = r->elements->ends;
+        const int n = plan.elements = r->elements->n;
+        const rb_status s = rb_rolling_mesh_uniform(&widest, &plan, r->scale * ends[0],
+                                                    r->scale * ends[n], &mesh, why);
+        return s == RB_OK ? rb_rolling_model_on_mesh(&widest, &plan, &mesh, r->model, why) : s;
+    }
+    const rb_rolling_elements elements = {
+        .are_equal = 1, .n = r->found->n, .x = r->found->x, .h = r->found->h};
+    return rb_rolling_model_of_result(&widest, &plan, &elements, r->model, why);
 }
 
 double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load)
@@ -985,6 +984,7 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
     f->r = (history_state){.program = states->program,
                            .found = states,
                            .like = of && !rb_rolling_relaxes(rc) ? &of->model : NULL,
+                           .elements = of ? &of->model.mesh : NULL,
                            .compression = RB_ROLLING_CLOSE,
                            .scale = scale,
                            .is_variant = of != NULL,

@@ -220,16 +220,25 @@ rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
     return s;
 }
 
+rb_status rb_rolling_model_on_mesh(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   rb_rolling_mesh *mesh, rb_rolling_model *model, rb_message *why)
+{
+    const rb_status s = rb_rolling_model_set_case(model, rc, why);
+
+    model->plan = plan ? *plan : rb_rolling_plan_of(rc);
+    model->mesh = *mesh;
+    memset(mesh, 0, sizeof *mesh);
+    return s == RB_OK ? set_up(model, 0, why) : s;
+}
+
 rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                      const rb_rolling_elements *elements, rb_rolling_model *model,
                                      rb_message *why)
 {
-    rb_status s = rb_rolling_model_set_case(model, rc, why);
+    rb_rolling_mesh mesh = {0};
+    const rb_status s = rb_rolling_mesh_of_result(rc, elements, &mesh, why);
 
-    model->plan = plan ? *plan : rb_rolling_plan_of(rc);
-    if (s == RB_OK)
-        s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
-    return s == RB_OK ? set_up(model, 0, why) : s;
+    return s == RB_OK ? rb_rolling_model_on_mesh(rc, plan, &mesh, model, why) : s;
 }
 
 /* Zones, tractions and friction of another mesh, where its elements lie; of a fitted one, whose
