@@ -30,7 +30,7 @@ static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
 static const double *difference_parts(const rb_rolling_case *rc)
 {
     static const double of_planes[] = {1e-3, 1e-4, 1e-5, 0.0},
-                        of_wheels[] = {4e-3, 2e-3, 1e-3, 4e-4, 0.0};
+                        of_wheels[] = {4e-3, 2e-3, 1e-3, 4e-4, 2e-4, 1e-4, 0.0};
     const int has_wheels =
         rc->a.support != RB_BEM_HALFPLANE || (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
     return has_wheels ? of_wheels : of_planes;

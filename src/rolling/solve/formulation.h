@@ -57,11 +57,10 @@ int rb_rolling_gave_up(const rb_rolling_model *model);
  * point of a curve; mesh, bodies and problem are not changed. */
 rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
                                     rb_message *why);
-/* Bodies and contact problem on a mesh, which is the model's afterwards, with a state of zeros; plan
- * NULL: the case's. Free the model in any case. */
+/* Bodies and contact problem on a mesh, which is the model's afterwards, with a state of zeros;
+ * plan NULL: the case's. Free the model in any case. */
 rb_status rb_rolling_model_on_mesh(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                   rb_rolling_mesh *mesh, rb_rolling_model *model,
-                                   rb_message *why);
+                                   rb_rolling_mesh *mesh, rb_rolling_model *model, rb_message *why);
 /* Frees model->freely. */
 void rb_rolling_forget_free_rolling(rb_rolling_model *model);
 
