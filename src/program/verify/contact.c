@@ -152,6 +152,52 @@ static void square_punch(rb_verify *v)
     rb_rolling_profile_free(flat);
 }
 
+/* What slides on a rigid plane with tan(pi g) = mu beta (Johnson, Contact Mechanics, 7.2 and 2.8c):
+ * a cylinder has p = E'/(2R) cos(pi g) (a + x)^(1/2 + g) (a - x)^(1/2 - g),  a = a_h/sqrt(1 - 4
+ * g^2), x from the middle of its contact, which is 2 g a ahead of its axis, p largest below the
+ * axis; a flat punch has p = P cos(pi g)/(pi sqrt(a^2 - x^2)) ((a + x)/(a - x))^g. Friction on the
+ * body points to -x. */
+static void sliding(rb_verify *v)
+{
+    static const double x[] = {-1.0, 0.0, 1.0}, gap[] = {0.0, 0.0, 0.0};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.mu = 1.0;
+    rc.formulation = RB_STEADY;
+    rc.creep = 0.1;
+    const rb_rolling_derived d = rb_rolling_derive(&rc);
+    const double g = atan(rc.mu * d.dundurs) / M_PI, a = rc.half_width / sqrt(1.0 - 4.0 * g * g);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->half_width, a, 3e-4, "sliding cylinder, mu = 1: half-width");
+    rb_verify_absolute(v, 0.5 * (s->contact_from + s->contact_to) / a, 2.0 * g, 3e-4,
+                       "sliding cylinder, mu = 1: middle of the contact / a");
+    rb_verify_relative(v, s->max_pressure,
+                       d.modulus * a / (2.0 * rc.a.radius) * cos(M_PI * g) *
+                           pow(1.0 + 2.0 * g, 0.5 + g) * pow(1.0 - 2.0 * g, 0.5 - g),
+                       3e-4, "sliding cylinder, mu = 1: largest pressure");
+
+    rb_rolling_profile *flat = NULL;
+    static rb_message why;
+    rb_verify_note(v, rb_rolling_profile_punch(3, x, gap, 0.0, &flat, &why), &why);
+    rc.formulation = RB_STATIC;
+    rc.gap = RB_GAP_TABLE;
+    rc.profile = flat;
+    rc.mesh = RB_MESH_PUNCH;
+    rc.half_width = rc.creep = NAN;
+    rc.load = 1.0;
+    rc.force_ratio = -1.0;
+    s = flat ? rb_verify_solve(v, &rc) : s;
+    double off = 0.0;
+    for (int i = 0; i < s->n && flat; i++)
+        if (fabs(s->x[i]) < 0.9)
+            off = fmax(off, fabs(s->p[i] * M_PI * sqrt(1.0 - gsl_pow_2(s->x[i])) / cos(M_PI * g) *
+                                     pow((1.0 - s->x[i]) / (1.0 + s->x[i]), g) -
+                                 1.0));
+    rb_verify_absolute(v, off, 0.0, 1e-3,
+                       "sliding flat punch, mu = 1: p for |x| < 0.9 a, relative");
+    rb_rolling_profile_free(flat);
+}
+
 /* Steel, R = 460 mm on a rail head of 300 mm, 100 kN (theory-rolling.md E2). */
 static void ellipse(rb_verify *v)
 {
@@ -325,6 +371,7 @@ void rb_verify_contact(rb_verify *v)
     bulk_stress(v);
     tilted(v);
     square_punch(v);
+    sliding(v);
     ellipse(v);
     wave(v);
     rb_rolling_case rc = rb_verify_uncoupled();
