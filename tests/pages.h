@@ -248,30 +248,44 @@ static inline int is_in(const part *p, const char *language)
     return strcmp(p->language, language) == 0;
 }
 
+/* How many headings of sections (## and deeper) a part of prose has. */
+static inline int headings_in(const part *p)
+{
+    int n = p->length > 2 && strncmp(p->text, "##", 2) == 0;
+    for (const char *s = p->text; s + 2 < p->text + p->length; s++)
+        n += strncmp(s, "\n##", 3) == 0;
+    return n;
+}
+
 /* Runs the blocks of a page, the k-th one, in the folder: those of the shell and of
- * Octave, in order; the names of those of Python are added to a list.  How many blocks
- * there are. */
-static inline int run_blocks(const char *page, int k, const char *folder, char python[MAX_TEXT],
-                             int *wrong)
+ * Octave, in order; the names of those of Python are added to a list.  Of `turns` sections one is
+ * run, which needs no file of another one.  How many blocks there are, run or not. */
+static inline int run_blocks(const char *page, int k, int turns, const char *folder,
+                             char python[MAX_TEXT], int *wrong)
 {
     static char text[MAX_TEXT];
     char path[100];
     const char *at = text;
-    int line = 1, blocks = 0;
+    int line = 1, blocks = 0, section = 0;
     part p;
     slurp(page, text);
     while (next_part(&at, &line, &p)) {
+        section += p.language[0] ? 0 : headings_in(&p);
         if (!is_in(&p, "sh") && !is_in(&p, "octave") && !is_in(&p, "python"))
             continue;
         blocks++;
+        if (!is_in_turn(section, turns))
+            continue;
         snprintf(path, sizeof path, "%s/block-%d-%d", folder, k, p.line);
         FILE *file = NOT_NULL(fopen(path, "w"));
         fwrite(p.text, 1, p.length, file);
         assert_int_equal(fclose(file), 0);
         int code = 0;
         if (is_in(&p, "sh"))
-            code =
-                run("cd %s && sh -e block-%d-%d >printed-%d-%d 2>&1", folder, k, p.line, k, p.line);
+            code = run("cd %s && sh -e block-%d-%d >printed-%d-%d 2>&1 && for f in $(grep -oE -e "
+                       "'-(plot|fringes|orbit|map) [a-z-]+[.][a-z]+' block-%d-%d | sed 's/.* //'); "
+                       "do [ -s $f ] || exit 99; done",
+                       folder, k, p.line, k, p.line, k, p.line);
         else if (is_in(&p, "octave") && have_octave())
             code = run("cd %s && octave --no-gui --no-init-file --quiet block-%d-%d "
                        ">printed-%d-%d 2>errors",
@@ -309,14 +323,16 @@ static inline int count_different(const char *page, int k, const char *folder)
 }
 
 /* Runs the blocks of pages, each of which has so many at least, those of Python at the
- * end.  How many raise something or print something else than the pages show. */
-static inline int run_pages(char *const page[], size_t pages, int least, const char *folder)
+ * end; one of `turns` sections.  How many raise something or print something else than the pages
+ * show, or whose picture is not there. */
+static inline int run_pages(char *const page[], size_t pages, int least, int turns,
+                            const char *folder)
 {
     static char python[MAX_TEXT];
     int wrong = 0;
     python[0] = '\0';
     for (size_t k = 0; k < pages; k++)
-        assert_true(run_blocks(page[k], (int)k, folder, python, &wrong) >= least);
+        assert_true(run_blocks(page[k], (int)k, turns, folder, python, &wrong) >= least);
     if (python[0]) {
         const int raised = run_python(folder, python);
         if (raised)
@@ -329,9 +345,9 @@ static inline int run_pages(char *const page[], size_t pages, int least, const c
     return wrong;
 }
 
-static inline int run_page(char *page, int least, const char *folder)
+static inline int run_page(char *page, int least, int turns, const char *folder)
 {
-    return run_pages(&page, 1, least, folder);
+    return run_pages(&page, 1, least, turns, folder);
 }
 
 #endif

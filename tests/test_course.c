@@ -28,7 +28,7 @@ TEST(blocks_print_what_the_pages_show)
     for (size_t k = 0; k < PAGES; k++)
         if (is_in_turn((int)k, 3))
             page[n++] = pages[k];
-    assert_int_equal(run_pages(page, n, 1, folder), 0);
+    assert_int_equal(run_pages(page, n, 1, 1, folder), 0);
 }
 
 /* The test above leaves them out where they cannot be run; this one says so. */
