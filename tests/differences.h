@@ -25,8 +25,8 @@ static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
                     difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
 /* Parts of an input's scale, ended by 0: within a long step zones change, within a short one
- * the rounding of solutions counts.  The flexibility of a wheel, and what is solved by products, are
- * known to 1e-12 or so: steps that would divide this to more than 1e-8 tell nothing. */
+ * the rounding of solutions counts.  The flexibility of a wheel, and what is solved by products,
+ * are known to 1e-12 or so: steps that would divide this to more than 1e-8 tell nothing. */
 static const double *difference_parts(const rb_rolling_model *model)
 {
     static const double of_matrices[] = {1e-3, 1e-4, 1e-5, 0.0}, of_products[] = {1e-3, 1e-4, 0.0},
@@ -104,8 +104,9 @@ static void difference_edges(const difference_frame *f, const rb_rolling_model *
     }
 }
 
-/* Products are iterated until the residual is 2e-11, which over a step of 1e-4 leaves seven digits of
- * a difference: what is left of it is solved for again, enlarged (the zones stay, so all is linear). */
+/* Products are iterated until the residual is 2e-11, which over a step of 1e-4 leaves seven digits
+ * of a difference: what is left of it is solved for again, enlarged (the zones stay, so all is
+ * linear). */
 static rb_status difference_refine(rb_rolling_model *v)
 {
     const double larger = 1e6;

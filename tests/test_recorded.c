@@ -127,18 +127,34 @@ static void record_is_met(void **state)
     }
 }
 
-/* Those that take half a second or more, most of it for integrals, searches and gnuplot, take turns: one of
- * three, unless they are asked for. */
+/* Those that take half a second or more, most of it for integrals, searches and gnuplot, take
+ * turns: one of three, unless they are asked for. */
 static int is_left_out(const char *name)
 {
     enum { TURNS = 3 };
-    static const char *const slow[] = {
-        "verify",           "wall",          "law-steps",           "lcp-paths",
-        "friction-solvers", "picture-bar",   "picture-stress-si",   "picture-fringes-falling",
-        "refused-odds",     "lcp-all-json",  "wall-interrupted",    "picture-fringes",
-        "bar",              "soclcp-steps",  "outputs-of-no-file",  "picture-fringes-column",
-        "picture-bar-slide", "wall-first-step", "steady-yield-solvers", "picture-bar-column",
-        "steady-patches",   "history-begun-anew", "picture-stress-hub"};
+    static const char *const slow[] = {"verify",
+                                       "wall",
+                                       "law-steps",
+                                       "lcp-paths",
+                                       "friction-solvers",
+                                       "picture-bar",
+                                       "picture-stress-si",
+                                       "picture-fringes-falling",
+                                       "refused-odds",
+                                       "lcp-all-json",
+                                       "wall-interrupted",
+                                       "picture-fringes",
+                                       "bar",
+                                       "soclcp-steps",
+                                       "outputs-of-no-file",
+                                       "picture-fringes-column",
+                                       "picture-bar-slide",
+                                       "wall-first-step",
+                                       "steady-yield-solvers",
+                                       "picture-bar-column",
+                                       "steady-patches",
+                                       "history-begun-anew",
+                                       "picture-stress-hub"};
     for (size_t k = 0; k < sizeof slow / sizeof *slow; k++)
         if (strcmp(name, slow[k]) == 0)
             return !is_in_turn((int)k, TURNS);
