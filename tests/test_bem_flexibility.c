@@ -91,6 +91,31 @@ TEST(apply_is_the_matrix_and_ldf_is_kept)
     rb_bem_flexibility_free(&f);
 }
 
+/* Half-planes under elements three times as long, and elsewhere: by a scale and a logarithm. */
+TEST(stretched_elements_are_those_of_longer_ends)
+{
+    enum { n = n_uneven, m = n + 1, entries = 2 * m * 2 * n };
+    const double scale = 3.0, K = 2.0 * (1.0 - steel.poisson) / (M_PI * steel.shear);
+    double longer[m + 1], F[2][entries];
+    for (int i = 0; i <= m; i++)
+        longer[i] = 0.3 + scale * uneven[i];
+    for (int k = 0; k < 2; k++) {
+        const double *ends = k ? longer : uneven;
+        rb_bem_flexibility a, b;
+        OWNED(rb_bem_flexibility) f;
+        CHECK_OK(rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 7.0), &a, NULL));
+        CHECK_OK(rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 9.0), &b, NULL));
+        CHECK_OK(rb_bem_flexibility_pair(&a, &b, &f, NULL));
+        if (k == 0)
+            CHECK_OK(rb_bem_flexibility_stretch(&f, longer, scale, -K * log(scale)));
+        CHECK_OK(rb_bem_flexibility_matrix(&f, F[k], 2 * m));
+        CHECK_REL(f.x[1], 0.5 * (longer[1] + longer[2]), 1e-14, "midpoint");
+        CHECK_REL(f.h[1], longer[2] - longer[1], 1e-14, "length");
+    }
+    for (int k = 0; k < entries; k++)
+        CHECK_ABS(F[0][k], F[1][k], 1e-14 * fabs(F[1][0]), "entry %d", k);
+}
+
 /* Two bodies of one material: twice the compliance, no coupling, B's w0_T turned round. */
 TEST(identical_bodies_lose_their_coupling)
 {

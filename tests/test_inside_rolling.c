@@ -475,4 +475,48 @@ TEST(a_far_field_moves_from_mesh_to_mesh)
     }
 }
 
+/* On fitted elements that have moved and grown with the edges a half-plane keeps matrix and LU: the
+ * solution is that of elements that have their own. */
+TEST(a_stretched_contact_is_that_of_its_elements)
+{
+    static const char *const rows[] = {"creep-ratio 0.4", "young-b 1e5 poisson-b 0.3 creep -1e-3",
+                                       "young-b 1e5 poisson-b 0.3 force-ratio 0.5",
+                                       "similar creep-ratio 0.6"};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rb_rolling_case rc =
+            with(half_plane(RB_STEADY, 60), "half-width 1 mesh fitted %s", rows[k]);
+        OWNED(rb_rolling_model) one = solved_model(&rc), own;
+        const rb_rolling_span span = {.from = 0.93 * one.mesh.ends[6],
+                                      .to = 0.95 * one.mesh.ends[one.mesh.n - 6]};
+        rb_rolling_mesh mesh[2];
+        double scale, along;
+        for (int i = 0; i < 2; i++)
+            CHECK_OK(rb_rolling_mesh_spans(&rc, 60, 1, &span, &mesh[i], &message));
+        assert_int_equal(mesh[0].n, one.mesh.n);
+        /* without an edge in sight, so that many elements are in contact */
+        CHECK_OK(rb_rolling_model_begin(&rc, NULL, &own, &message));
+        const rb_contact_operator *op = one.problem.op;
+        CHECK_STATUS(rb_rolling_model_build(&one, &mesh[0], &message), RB_ZONE);
+        assert_ptr_equal(one.problem.op, op);
+        assert_int_equal(one.state.solver, RB_SOLVER_NEWTON);
+        CHECK_STATUS(rb_rolling_model_build(&own, &mesh[1], &message), RB_ZONE);
+        CHECK_MAX(largest_difference(&one.bodies, &own.bodies), 1e-12, "row %zu", k);
+        const rb_contact_state *a = &one.state, *b = &own.state;
+        CHECK_REL(a->delta, b->delta, 1e-10, "row %zu: approach", k);
+        CHECK_ABS(a->xi, b->xi, 1e-10 * 1e-2, "row %zu: creepage", k);
+        for (int i = 0; i < a->n; i++) {
+            CHECK_ABS(a->p[i], b->p[i], 1e-9 * one.problem.stress, "row %zu: pressure %d", k, i);
+            CHECK_ABS(a->q[i], b->q[i], 1e-9 * one.problem.stress, "row %zu: friction %d", k, i);
+        }
+        /* other lengths are not a stretched mesh, and a layer is no half-plane */
+        own.mesh.ends[3] += 1e-6;
+        assert_false(
+            rb_rolling_bodies_stretch(&rc, &one.mesh, &own.mesh, &one.bodies, &scale, &along));
+        own.mesh.ends[3] -= 1e-6;
+        rc.a.layer = 1.0;
+        assert_false(
+            rb_rolling_bodies_stretch(&rc, &one.mesh, &own.mesh, &one.bodies, &scale, &along));
+    }
+}
+
 RUN_TESTS(NULL, NULL)

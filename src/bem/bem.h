@@ -174,6 +174,11 @@ rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double 
 
 /* Adds a matrix, 2m x 2n, to that of f.  RB_EINVAL: f does not store one. */
 rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F);
+/* To elements `scale` times as long, wherever they stand, of half-planes: the displacement by a
+ * logarithm of the distance adds `along` [1/stress] times the length of a loaded element to F_NN
+ * and F_TT.  ends: as of rb_bem_flexibility_surface.  RB_EINVAL: f does not store a matrix. */
+rb_status rb_bem_flexibility_stretch(rb_bem_flexibility *f, const double *ends, double scale,
+                                     double along);
 /* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
 /* The same flexibility as a dense matrix. */

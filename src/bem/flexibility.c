@@ -155,6 +155,26 @@ rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F)
     return RB_OK;
 }
 
+rb_status rb_bem_flexibility_stretch(rb_bem_flexibility *f, const double *ends, double scale,
+                                     double along)
+{
+    const size_t m = (size_t)f->m;
+    double *F = f->data;
+
+    if (f->apply != dense_apply)
+        return RB_EINVAL;
+    rb_bem_flexibility_place(ends, f);
+    for (int j = 0; j < 2 * f->n; j++, F += 2 * m) {
+        double *direct = j < f->n ? F : F + m, *coupled = j < f->n ? F + m : F;
+        const double added = along * f->h[j % f->n];
+        for (size_t i = 0; i < m; i++) {
+            direct[i] = scale * direct[i] + added;
+            coupled[i] *= scale;
+        }
+    }
+    return RB_OK;
+}
+
 rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense)
 {
     double *F;

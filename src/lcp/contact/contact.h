@@ -26,6 +26,12 @@ typedef struct {
 } rb_contact_response;
 rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
 
+/* The operator of elements `scale` times as long under half-planes, after its F has been scaled and
+ * `along` [1/stress] times the length of an element added to F_NN (rb_bem_flexibility_stretch).
+ * The next solves have a given load, as the last ones had: their LU is kept.  RB_EINVAL: it has no
+ * matrix, or products beside it. */
+rb_status rb_contact_operator_stretch(rb_contact_operator *op, double scale, double along);
+
 /* ---- The problem ------------------------------------------------------------------- */
 
 /* P, Q and M of the state. */

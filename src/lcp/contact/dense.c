@@ -145,6 +145,22 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
     return RB_OK;
 }
 
+rb_status rb_contact_operator_stretch(rb_contact_operator *op, double scale, double along)
+{
+    rb_contact_dense *dense = (rb_contact_dense *)op;
+    const size_t n = (size_t)op->n;
+
+    if (!op->matrix.F || dense->products)
+        return RB_EINVAL;
+    cblas_dscal((int)(2 * n * n), scale, dense->S, 1);
+    op->response.gap *= scale;
+    op->response.slip *= scale;
+    op->response.coupled_slip *= scale;
+    rb_contact_factors_move(dense->factors, dense->along, dense->along - along);
+    dense->along -= along;
+    return RB_OK;
+}
+
 void rb_contact_operator_add_products(rb_contact_operator *dense, rb_contact_operator *products)
 {
     rb_contact_dense *of = (rb_contact_dense *)dense;

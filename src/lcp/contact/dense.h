@@ -12,11 +12,16 @@ typedef struct {
     double *S;                     /* owned, as the factors */
     rb_contact_factors *factors;   /* empty at first and when cleared */
     rb_contact_operator *products; /* NULL: none; owned */
+    /* Of a given load the LU has this [length/load] times the load of each element more in its
+     * column of F_NN, which only adds to delta: so it serves elements of another length, too. */
+    double along;
 } rb_contact_dense;
 
 rb_status rb_contact_factors_create(rb_contact_factors **factors);
 void rb_contact_factors_clear(rb_contact_factors *factors);
 void rb_contact_factors_free(rb_contact_factors *factors);
+/* What has been made with `from` along is that of `to`; the rest is cleared. */
+void rb_contact_factors_move(rb_contact_factors *factors, double from, double to);
 
 /* Which LU: of the tractions for earlier zones where these have not changed too much, or
  * else, or at once, for the present ones; or of all unknowns together, which is not kept:

@@ -23,6 +23,7 @@ typedef struct {
     int contacts, size, capacity;
     traction *unknown;
     double *LU;
+    double along; /* as in rb_contact_dense */
     lapack_int *pivots;
 } kept_lu;
 
@@ -68,6 +69,16 @@ void rb_contact_factors_clear(rb_contact_factors *factors)
     }
 }
 
+void rb_contact_factors_move(rb_contact_factors *factors, double from, double to)
+{
+    for (int k = 0; k < 3; k++) {
+        kept_lu *kept = &factors->kept[k];
+        if (kept->along != from)
+            kept->size = kept->contacts = 0;
+        kept->along = to;
+    }
+}
+
 void rb_contact_factors_free(rb_contact_factors *factors)
 {
     rb_contact_factors_clear(factors);
@@ -82,11 +93,17 @@ rb_status rb_contact_factors_create(rb_contact_factors **factors)
 
 /* ---- Entries, scaled to numbers of order one --------------------------------------- */
 
+/* Where a load is given, together with what its LU adds to all gaps alike. */
+static double along_of(const rb_contact_problem *p)
+{
+    return p->load_given ? ((const rb_contact_dense *)p->op)->along : 0.0;
+}
+
 static double gap_of(const rb_contact_problem *p, int i, traction t)
 {
     const rb_contact_matrix *K = &p->op->matrix;
     const double *F = K->F + i + (size_t)t.at * (size_t)K->ldf;
-    const double N = t.N != 0.0 ? t.N * F[0] : 0.0;
+    const double N = t.N != 0.0 ? t.N * (F[0] + along_of(p) * p->load_N[t.at]) : 0.0;
     const double T = t.T != 0.0 ? t.T * F[(size_t)p->n * (size_t)K->ldf] : 0.0;
     return (N + T) * (p->stress / p->gap_length);
 }
@@ -217,6 +234,7 @@ static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r
     if (s != RB_OK || size == 0)
         return s;
     memcpy(k->unknown, unknown, (size_t)size * sizeof *unknown);
+    k->along = along_of(p);
     for (int j = 0; j < size; j++) {
         double *column = k->LU + (size_t)j * (size_t)size;
         for (int i = 0; i < r->contacts; i++)
@@ -311,7 +329,7 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
     make_plan(p, zone, r, k, &pl);
     /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
      * steps: least in sum where b is about the root of twice the size. */
-    if (lu == RB_LU_NEW ||
+    if (lu == RB_LU_NEW || (lu == RB_LU_KEPT && k->along != along_of(p)) ||
         (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
         const rb_status s = factor(p, r, pl.unknown, k);
         if (s != RB_OK)
@@ -330,11 +348,14 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
         return rb_arena_done(&scratch, RB_ENOMEM);
     m.f = m.V + n * count; /* with g behind it */
     m.g = m.f + n;
+    const double missing_load = r->load ? r->x[r->contacts + r->sticks] * p->load : 0.0;
     for (int i = 0; i < r->size; i++)
         m.f[pl.source[i]] = r->x[i];
     fill_border(p, r, k, &pl, &m);
     const rb_status s = eliminate(k, pl.count, &m, pivots, &r->growth);
     for (int i = 0; i < r->size; i++)
         r->x[i] = m.f[pl.source[i]];
+    if (r->load)
+        r->x[r->contacts + r->sticks] -= along_of(p) * missing_load / p->gap_length;
     return rb_arena_done(&scratch, s);
 }

@@ -17,6 +17,8 @@ struct rb_rolling_far_field {
     double *x;  /* n: places [length] */
     double *w0; /* 2n: displacements without loads [length] */
     double *F;  /* 2n x 2n: displacements for unit forces along the normal and along the surface */
+    int elements; /* 0, or of meshes to which `more` is added */
+    double *more; /* 2 (elements + 1) [length] */
     rb_arena memory;
 };
 
@@ -118,6 +120,29 @@ static int weights_at(const rb_rolling_far_field *far, double x, double weight[O
     return first;
 }
 
+rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_far_field *far,
+                                     rb_message *why)
+{
+    const rb_contact_state *state = &model->state;
+    const int n = model->mesh.n, rows = 2 * (n + 1);
+    double *more = rb_arena_doubles(&far->memory, (size_t)rows, 2), *w = more + rows;
+    rb_rolling_bodies as_far = {.F = NULL};
+    rb_status s = far->memory.failed ? RB_ENOMEM : RB_OK;
+
+    if (s == RB_OK)
+        s = rb_rolling_bodies_near(model->rc, far, &model->mesh, &as_far, why);
+    if (s == RB_OK)
+        s = rb_rolling_displacement(&as_far, state->p, state->q, w);
+    if (s == RB_OK)
+        s = rb_rolling_displacement(&model->bodies, state->p, state->q, more);
+    for (int i = 0; i < rows && s == RB_OK; i++)
+        more[i] -= w[i];
+    rb_rolling_bodies_free(&as_far);
+    far->more = more;
+    far->elements = n;
+    return s;
+}
+
 rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f)
 {
     const int n = far->n, m = f->m;
@@ -146,5 +171,7 @@ rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexi
                 for (int k = 0; k < ORDER; k++)
                     to[a * m + i] += weight[ORDER * i + k] * from[a * n + first[i] + k];
     }
+    for (int i = 0; i < 2 * m && f->n == far->elements; i++)
+        f->w0[i] += far->more[i];
     return rb_arena_done(&scratch, rb_bem_flexibility_add_matrix(f, F));
 }

@@ -13,6 +13,11 @@ int rb_rolling_has_far_field(const rb_rolling_case *rc);
 /* From the bodies of the model, which have a matrix.  RB_ENOMEM. */
 rb_status rb_rolling_far_field_create(const rb_rolling_model *model, rb_rolling_far_field **far,
                                       rb_message *why);
+/* From then on the field moves fitted elements, as many as the model has, under tractions like the
+ * model's as the model's own bodies do, with the errors of boundary elements, which are not smooth.
+ * RB_ENOMEM. */
+rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_far_field *far,
+                                     rb_message *why);
 void rb_rolling_far_field_free(rb_rolling_far_field *far);
 /* Adds it to a flexibility that is stored.  RB_ENOMEM. */
 rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f);

@@ -131,6 +131,13 @@ rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_roll
                                         const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
                                         rb_message *why);
 
+/* 1: both bodies are half-planes of one material each and the mesh `to` is `from`, moved and made
+ * `*scale` times as long; their matrix is then that of `to`, to which each element has added
+ * `*along` [1/stress] times its length everywhere.  0: nothing has changed. */
+int rb_rolling_bodies_stretch(const rb_rolling_case *rc, const rb_rolling_mesh *from,
+                              const rb_rolling_mesh *to, rb_rolling_bodies *bodies, double *scale,
+                              double *along);
+
 /* Both bodies by what is near to the loads: wheels by half-planes, and by the far field, where one
  * is given (otherwise NULL); without systems of boundary elements. */
 rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far_field *far,

@@ -14,9 +14,9 @@ enum {
     ROUNDS = 10,
     MOST_PATCHES = 16
 };
-/* Edges that have come to rest, or near enough after all rounds: in lengths of the
- * outermost elements, which are the smallest of the mesh. */
-static const double AT_REST = 0.1, NEAR_REST = 3.0;
+/* Edges that have come to rest, or near enough after all rounds, or for more elements to go on
+ * from: in lengths of the outermost elements, which are the smallest of the mesh. */
+static const double AT_REST = 0.1, NEAR_REST = 3.0, TO_GO_ON = 1.0;
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
@@ -175,22 +175,32 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
     return s;
 }
 
+/* 1: both have the same edges, to what counts as rest. */
+static int same_edges(const patches *a, const patches *b)
+{
+    int same = a->count == b->count;
+
+    for (int k = 0; same && k < a->count; k++)
+        same = fabs(a->span[k].from - b->span[k].from) < AT_REST * b->span[k].h_left &&
+               fabs(a->span[k].to - b->span[k].to) < AT_REST * b->span[k].h_right;
+    return same;
+}
+
 /* From a solution to elements fitted to its edges, until these rest; where they do not, or
  * where no solution is found on them, to equal ones.
- * Wheels are searched by a far field until the edges rest, then with_systems by their boundary
- * elements, mostly two or three times.  room: kept beyond the edges at first, as a part of the
- * patch. */
-static rb_status refit(rb_rolling_model *model, double room, int with_systems, rb_message *why)
+ * Wheels are searched by a far field.  with_systems: where its edges rest the boundary elements of
+ * the same mesh are solved; if they put the edges elsewhere, the search goes on by their far field.
+ * room: kept beyond the edges at first, as a part of the patch.  enough: how nearly they rest. */
+static rb_status refit(rb_rolling_model *model, double room, int with_systems, double enough,
+                       rb_message *why)
 {
-    patches fitted, found;
+    patches fitted, found, expected = {.count = 0};
     brackets known[MOST_PATCHES];
     const int has_far = rb_rolling_has_far_field(model->rc) && model->mesh.n >= 8,
               rounds = has_far ? 2 * ROUNDS : ROUNDS;
     rb_status s = find_patches(model, &fitted);
-    int rest = 0;
+    int rest = 0, by_far_field = 0;
 
-    if (s == RB_OK && has_far && !model->far)
-        s = rb_rolling_far_field_create(model, &model->far, why);
     forget(known);
     for (int k = 0; k < fitted.count; k++) {
         rb_rolling_span *span = &fitted.span[k];
@@ -199,10 +209,17 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, r
     }
     for (int round = 0; round < rounds && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
          round++) {
-        const int by_far_field = model->far != NULL;
         rb_rolling_mesh mesh;
-        s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
-                                  why);
+        const int is_checked = by_far_field && !model->far;
+        if (has_far && !model->far && !is_checked && model->bodies.F) {
+            s = rb_rolling_far_field_create(model, &model->far, why);
+            if (s == RB_OK && round > 0)
+                s = rb_rolling_far_field_match(model, model->far, why);
+        }
+        by_far_field = model->far != NULL;
+        if (s == RB_OK || s == RB_ZONE)
+            s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span,
+                                      &mesh, why);
         /* which starts from the solution before: on a mesh that ends somewhere a corner of a punch
          * can be a solution as well */
         if (s == RB_OK)
@@ -226,12 +243,15 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, r
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
             }
-            rest = moved < (round + 1 == rounds ? NEAR_REST : AT_REST);
-            if (with_systems && by_far_field && (rest || round + 1 >= ROUNDS)) {
+            rest = moved < (round + 1 == rounds ? NEAR_REST : enough) ||
+                   (is_checked && same_edges(&expected, &found));
+            if (with_systems && by_far_field && (rest || round + 2 >= rounds)) {
+                expected = rest ? found : (patches){.count = 0};
                 drop_far_field(model);
-                forget(known);
                 rest = 0;
             }
+            if (has_far && !model->far)
+                forget(known);
         } else {
             forget(known);
             fitted = found;
@@ -245,7 +265,7 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, r
 
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
 {
-    return refit(model, 0.0, 1, why);
+    return refit(model, 0.0, 1, AT_REST, why);
 }
 
 rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model *model,
@@ -264,14 +284,15 @@ rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model
     if (s != RB_OK)
         return s;
     rb_contact_copy_start(&beside->state, &model->state);
-    return refit(model, ROOM, longest > SHORT * rb_rolling_radius(model->rc), why);
+    return refit(model, ROOM, longest > SHORT * rb_rolling_radius(model->rc), AT_REST, why);
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_plan asked = model->plan;
     const int fine = rb_rolling_has_fine_boundary(&asked);
-    int halvings = 0;
+    /* with a matrix half of the elements cost little */
+    int halvings = asked.elements >= 2 * FIRST && asked.elements < RB_ROLLING_TRANSFORMS_FITTED;
 
     while (asked.elements > RB_ROLLING_FITTED_AT_ONCE &&
            asked.elements >> halvings > RB_ROLLING_COARSEST_FITTED)
@@ -291,7 +312,7 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
     /* Many elements start from the edges and the zones of few. */
     for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
         model->plan.elements = asked.elements >> k;
-        s = refit(model, 0.0, 0, why);
+        s = refit(model, 0.0, 0, TO_GO_ON, why);
         model->iterations = 0;
     }
     model->plan.elements = asked.elements;

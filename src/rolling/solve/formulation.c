@@ -380,6 +380,15 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_
     return fill_problem(rc, mesh, bodies, past, p, why);
 }
 
+rb_status rb_rolling_problem_stretch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                     const rb_rolling_bodies *bodies, double scale, double along,
+                                     rb_contact_problem *p, rb_message *why)
+{
+    const rb_status s = rb_contact_operator_stretch(p->op, scale, along);
+
+    return s == RB_OK ? fill_problem(rc, mesh, bodies, NULL, p, why) : s;
+}
+
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies, rb_contact_problem *p,
                                             rb_message *why)

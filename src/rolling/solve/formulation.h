@@ -24,6 +24,11 @@ void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bo
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies, rb_contact_problem *p,
                                             rb_message *why);
+/* The same problem after rb_rolling_bodies_stretch, steady and with a given load: it keeps its
+ * operator, and with that the LU of the last zones. */
+rb_status rb_rolling_problem_stretch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                     const rb_rolling_bodies *bodies, double scale, double along,
+                                     rb_contact_problem *p, rb_message *why);
 /* The problem of bodies and an operator that belong to another one, which stays their
  * owner: p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,

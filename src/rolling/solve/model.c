@@ -188,6 +188,9 @@ static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
 {
     rb_status s = RB_OK;
 
+    rb_contact_problem_free(&model->problem);
+    if (!kept)
+        rb_rolling_bodies_free(&model->bodies);
     if (model->far && !kept)
         s = rb_rolling_bodies_near(model->rc, model->far, &model->mesh, &model->bodies, why);
     else if (!kept)
@@ -265,13 +268,23 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     rb_contact_state old = model->state;
     double *bound = near ? rb_rolling_friction_of(model) : NULL;
 
+    double scale, along;
+    const int stretched =
+        near && model->rc->mesh == RB_MESH_FITTED && model->rc->formulation == RB_STEADY &&
+        model->problem.load_given && !model->problem.yield && !model->plan.start &&
+        rb_rolling_bodies_stretch(model->rc, &old_mesh, mesh, &model->bodies, &scale, &along);
+    rb_status s;
+
     memset(&model->state, 0, sizeof model->state);
-    rb_contact_problem_free(&model->problem);
-    if (!kept)
-        rb_rolling_bodies_free(&model->bodies);
     model->mesh = *mesh;
     memset(mesh, 0, sizeof *mesh);
-    rb_status s = set_up(model, kept, why);
+    if (stretched) {
+        s = rb_rolling_problem_stretch(model->rc, &model->mesh, &model->bodies, scale, along,
+                                       &model->problem, why);
+        s = s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
+    } else {
+        s = set_up(model, kept, why);
+    }
     const int large = s == RB_OK && !model->bodies.F;
     const int warm = large || (s == RB_OK && near && model->rc->mesh == RB_MESH_FITTED);
     if (warm && near)
