@@ -3,13 +3,10 @@
 #include "rolling/body/internal.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/internal.h"
-#include "rolling/history/history.h"
-#include "rolling/history/internal.h"
+#include "rolling/history/row.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
-#include "rolling/solve/patches.h"
-#include "rolling/solve/power.h"
 #include "rolling/solve/stress.h"
 #include "rolling/solve/variant.h"
 #include "rolling/solve/zone.h"
@@ -18,15 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Steps of a row at rest are halved until its tractions change by less than this part of what
- * the load makes, or than a tenth of what an element has, or until there are so many. */
-static const double ROW_CHANGES = 1e-3, OF_AN_ELEMENT = 0.1;
-enum { ROW_STEPS = 1024 };
-/* Friction that falls by more than this part of mu P in a step may have jumped, and has if that
- * does not become half in a quarter of it. */
-static const double FALLS = 2e-3;
-enum { LOOKED_BACK = 3, STEPS_TO_JUMP = 32 };
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
@@ -42,568 +30,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
     memset(h, 0, sizeof *h);
 }
 
-/* ---- Steps ------------------------------------------------------------------------- */
-
-/* A row is an entry of the history.  It is computed in one step or more, of which the last one
- * is recorded. */
-typedef struct {
-    rb_rolling_case base;                /* the case with equal elements, for the steps */
-    rb_rolling_program own;              /* of the case, where none is given */
-    rb_arena columns;                    /* of own */
-    const rb_rolling_case *rc;           /* base */
-    const rb_rolling_program *program;   /* own, or the given one */
-    const rb_rolling_observer *observer; /* or NULL */
-    const rb_rolling_states *found;      /* of the rows, to follow without solving; or NULL */
-    const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
-    const rb_rolling_mesh *elements;     /* that `scale` moves the ends of; or NULL */
-    double compression;                  /* of boundaries, where states are found */
-    double scale;                        /* of `elements` */
-    int is_variant;                      /* 1: of the history that has found them */
-    rb_rolling_model *model;
-    rb_rolling_history *history;
-    int rows;     /* in all */
-    int at_rest;  /* of them, before the bodies roll */
-    int rolled;   /* steps of a row that rolls */
-    double shift; /* rigid shift so far [length] */
-    rb_rolling_particles particles;
-    rb_rolling_steady steady;
-    int frets_from, frets_to; /* row after which the cycle of --fretting begins, and its last */
-    int row, part;            /* of the program: rows towards this one that are done */
-    int step, steps;          /* of the present row: done, and in all */
-    rb_rolling_stride stride; /* the current step */
-    double to;                /* [half-widths]: where it ends */
-    struct {
-        double of_P;         /* how far Q falls, as a part of mu P */
-        double shift, force; /* before */
-    } fall;                  /* the largest in a step of the row to full sliding (F6) */
-} history_state;
-
-/* Of the program at rest, `done` of `all` parts behind its row before; 0 where it has no times. */
-static double time_at(const history_state *r, int done, int all)
-{
-    const double *t = r->program->time;
-
-    if (!t || r->row == 0)
-        return 0.0;
-    return done == all ? t[r->row] : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * done / all;
-}
-
-/* What must hold after every step. */
-static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
-{
-    if (s == RB_OK)
-        return s;
-    rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
-    if (why) /* what the step blames */
-        memcpy(why->about, reason->about, sizeof why->about);
-    return s;
-}
-
-/* The next row is one at rest. */
-static int is_at_rest(const history_state *r)
-{
-    return r->history->n < r->at_rest;
-}
-
-/* Steps of the next row at rest where they do not depend on the answer; 0: they do. */
-static int steps_at_rest(const history_state *r)
-{
-    const int increments = r->program == &r->own || r->rc->time_step > 0.0 ? 1 : r->rc->increments;
-    return rb_rolling_program_steps(r->program, r->rc, r->row, increments);
-}
-
-/* Steps of the next row, where its state is given. */
-static int steps_found(const history_state *r)
-{
-    const int known = is_at_rest(r) ? steps_at_rest(r) : r->is_variant ? 0 : r->rolled;
-    return known > 0 ? known : r->found->substeps[r->history->n];
-}
-
-/* The problem of the next step: at rest, where the rigid shift or the given force moves
- * the contact towards a row of the program, or on the way. */
-static rb_status begin_step(history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    rb_contact_problem *p = &model->problem;
-    const int k = r->history->n, rests = is_at_rest(r), is_first = k == 0 && r->step == 0;
-    const double c = rests ? 0.0 : r->history->step / r->steps, mu_before = model->rc->mu;
-    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
-    rb_rolling_case step;
-    rb_message reason = {.text = ""};
-
-    if (rests) {
-        const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps,
-                  done = r->part * r->steps + r->step;
-        const double interval = time_at(r, done + 1, all) - time_at(r, done, all);
-        r->to = 0.0;
-        r->stride = (rb_rolling_stride){0.0, interval, is_first};
-        step = rb_rolling_program_row(r->program, r->rc, r->row, done + 1, all);
-    } else {
-        const double length = c / r->history->half_width;
-        const int done = (k - r->at_rest) * r->steps + r->step;
-        r->to = k + 1 == r->rows && r->step + 1 == r->steps
-                    ? r->program->distance[r->program->n - 1]
-                    : (done + 1) * length;
-        r->stride = (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
-        step = rb_rolling_program_step(r->program, r->rc, done * length, r->to);
-    }
-    /* The rows are checked beforehand; between two of them mu and the load both vary, and
-     * their product may be less than a force that is linear. */
-    rb_status s = assess(r, r->program->mu ? rb_rolling_program_check_case(&step, &reason) : RB_OK,
-                         &reason, why);
-    if (rests) {
-        if (step.formulation == RB_TRANSIENT && isnan(step.force) && isnan(step.force_ratio))
-            step.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
-        step.formulation = RB_STATIC;
-        model->shift = r->shift;
-    }
-    if (s == RB_OK)
-        s = rb_rolling_model_set_case(model, &step, why);
-    if (s == RB_OK)
-        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
-    if (s == RB_OK && r->program->tilt) {
-        s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
-        rb_rolling_set_gap(&model->mesh, &model->bodies, p);
-    }
-    if (s == RB_OK && !rests) {
-        /* The irregularity has come nearer by the way so far. */
-        model->mesh.passed = r->to * r->history->half_width;
-        if (step.irregularity.n > 0) {
-            s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
-            rb_rolling_set_gap(&model->mesh, &model->bodies, p);
-        }
-    }
-    if (s != RB_OK)
-        return s;
-    /* Coefficients that depend on the state stay as they are: the iteration begins with
-     * them. */
-    if (step.mu != mu_before && rb_rolling_law_depends_on_state(model->rc))
-        rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
-    else if (step.mu != mu_before)
-        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
-    rb_rolling_set_past(model->rc, &model->bodies, is_first ? NULL : &past, p);
-    rb_rolling_set_control(model->rc, p);
-    if (rests)
-        p->xi -= p->force_given ? 0.0 : r->shift;
-    return RB_OK;
-}
-
-/* Whether the step, the present one, takes away friction that the one before had, and all
- * slides. */
-static void see_fall(history_state *r, double shift_before)
-{
-    const rb_rolling_history *h = r->history;
-    const rb_contact_state *state = &r->model->state;
-    const int k = h->n, before = r->step > 1 ? k : k - 1;
-    const double mu = r->model->rc->mu, P = rb_rolling_model_load(r->model);
-
-    for (int i = 0; i < state->n; i++)
-        if (state->zone[i] == RB_ZONE_STICK)
-            return;
-    if (before < 0 || !(mu * P > 0.0) || !(h->normal_load[before] > 0.0))
-        return;
-    const double Q = h->tangential_load[before],
-                 fell = (fabs(Q) / h->normal_load[before] -
-                         fabs(rb_rolling_model_force(r->model)) / P) /
-                        mu;
-    if (fell > r->fall.of_P) {
-        r->fall.of_P = fell;
-        r->fall.shift = shift_before;
-        r->fall.force = Q;
-    }
-}
-
-/* What follows from the state that the step has found.  Means over a row are those of its
- * steps, which have one length. */
-static void end_step(history_state *r, rb_status s)
-{
-    rb_rolling_history *h = r->history;
-    const rb_rolling_model *model = r->model;
-    const rb_contact_problem *p = &model->problem;
-    const rb_contact_state *state = &model->state;
-    const int k = h->n, rests = is_at_rest(r), rolls = model->rc->formulation == RB_TRANSIENT,
-              done = ++r->step;
-
-    if (rests && rb_rolling_law_depends_on_state(model->rc))
-        see_fall(r, r->shift);
-    if (rests)
-        r->shift += state->xi;
-    rb_rolling_particles_leave(&r->particles, &r->stride);
-    rb_rolling_cycle_step(model);
-    h->substeps[k] = done;
-    h->distance[k] = r->to;
-    h->shift[k] = r->shift;
-    h->approach[k] = state->delta;
-    h->normal_load[k] = rb_rolling_model_load(model);
-    h->tangential_load[k] = rb_rolling_model_force(model);
-    h->force_ratio[k] = rb_rolling_force_ratio(model);
-    h->residual[k] = done > 1 ? fmax(h->residual[k], state->residual) : state->residual;
-    h->max_pressure[k] = rb_rolling_peak_pressure(model);
-    rb_rolling_contact_edges(model->rc, &model->mesh, state, &h->contact_from[k],
-                             &h->contact_to[k]);
-    double work = 0.0;
-    if (rolls) {
-        const double power = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
-                                                         model->bodies.f.h, p->e_T);
-        h->creepage[k] += (state->xi - h->creepage[k]) / done;
-        h->dissipation[k] += (power - h->dissipation[k]) / done;
-        work = power * r->stride.c;
-    }
-    for (int i = 0; i < p->n && !rolls; i++)
-        work -= state->zone[i] > RB_ZONE_STICK
-                    ? state->q[i] * state->lambda[i] * model->bodies.f.h[i]
-                    : 0.0;
-    h->step_work[k] = work + (done > 1 ? h->step_work[k] : 0.0);
-    h->friction_work[k] = h->step_work[k] + (k > 0 ? h->friction_work[k - 1] : 0.0);
-    h->moment[k] = rb_contact_moment(p, state);
-    double torque_b, hottest_at;
-    rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k], &torque_b);
-    if (h->torque_b)
-        h->torque_b[k] = torque_b;
-    if (h->max_temperature)
-        rb_rolling_peak_temperature(p->n, model->bodies.f.x, state->zone,
-                                    model->carried.temperature, &h->max_temperature[k],
-                                    &hottest_at);
-    if (h->time) {
-        const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps;
-        h->time[k] = r->program->time ? time_at(r, r->part * r->steps + done, all)
-                                      : r->to * h->half_width / r->rc->speed;
-        h->lost_work[k] = r->particles.past.lost;
-    }
-    if (h->mu)
-        h->mu[k] = model->rc->mu;
-    if (h->bulk_stress)
-        h->bulk_stress[k] = model->rc->bulk_stress;
-    if (h->bulk_stress_b)
-        h->bulk_stress_b[k] = model->rc->bulk_stress_b;
-    if (h->tilt)
-        h->tilt[k] = model->rc->tilt;
-    h->stick[k] = h->slipping[k] = 0;
-    for (int i = 0; i < p->n; i++) {
-        h->stick[k] += state->zone[i] == RB_ZONE_STICK;
-        h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
-    }
-    if (!rests && s == RB_OK)
-        rb_rolling_steady_see(&r->steady, model, h, r->to * h->half_width);
-    if (done < r->steps && s == RB_OK)
-        return;
-    h->n++;
-    r->step = 0;
-    if (rests && ++r->part == rb_rolling_program_parts(r->program, r->rc, r->row)) {
-        r->part = 0;
-        r->row++;
-    }
-}
-
-/* The element that touches first. */
-static int first_to_touch(const rb_contact_problem *p)
-{
-    int k = 0;
-
-    for (int i = 1; i < p->n; i++)
-        k = p->d_N[i] < p->d_N[k] ? i : k;
-    return k;
-}
-
-/* The approach at first touch: of the parabola through that element and its neighbours. */
-static double touch(const rb_contact_problem *p, const double *x)
-{
-    const int k = first_to_touch(p);
-    double rise = 0.0, off;
-
-    if (k > 0 && k < p->n - 1) {
-        const double d[2] = {x[k - 1] - x[k], x[k + 1] - x[k]},
-                     f[2] = {p->d_N[k] - p->d_N[k - 1], p->d_N[k] - p->d_N[k + 1]};
-        if (!rb_rolling_vertex(d, f, &rise, &off))
-            rise = 0.0;
-    }
-    return fabs(p->d_N[k] - rise) > 1e-12 * rise ? p->d_N[k] - rise : 0.0;
-}
-
-/* 1: under what the step gives, the bodies do not touch: without a load, or not so near. */
-static int is_apart(const rb_contact_problem *p)
-{
-    return p->load_given ? p->load == 0.0 : p->delta <= p->d_N[first_to_touch(p)];
-}
-
-/* The state of bodies that do not touch: what moves them goes on, without friction. */
-static rb_status part(rb_rolling_model *model, rb_message *why)
-{
-    rb_contact_problem *p = &model->problem;
-    rb_contact_state *state = &model->state;
-    const size_t n = (size_t)state->n;
-    rb_arena scratch = {0};
-    double *gap = rb_arena_doubles(&scratch, n, 1);
-
-    memset(state->p, 0, n * sizeof *state->p);
-    memset(state->q, 0, n * sizeof *state->q);
-    memset(state->plastic, 0, n * sizeof *state->plastic);
-    memset(state->zone, 0, n * sizeof *state->zone);
-    state->delta = p->load_given ? touch(p, model->bodies.f.x) : p->delta;
-    model->half_width = 0.0;
-    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
-        p->xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
-    state->xi = p->force_given ? 0.0 : p->xi;
-    state->residual = 0.0;
-    state->status = RB_OK;
-    if (scratch.failed)
-        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory");
-    rb_contact_kinematics(p, state, gap, state->lambda);
-    rb_arena_free(&scratch);
-    return rb_rolling_model_friction(model, why); /* particles remember their coefficients */
-}
-
-static rb_status solve_step(const history_state *r, rb_message *why)
-{
-    if (is_apart(&r->model->problem))
-        return part(r->model, why);
-    return is_at_rest(r) ? rb_rolling_model_resolve(r->model, r->step > 0, why)
-                         : rb_rolling_model_control(r->model, why);
-}
-
-/* The given state of a row, with the residual that it leaves. */
-static rb_status take_found(const history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    rb_contact_state *state = &model->state;
-    rb_contact_violation v = {.scaled = NAN};
-
-    rb_rolling_states_get(r->found, r->history->n, state);
-    model->half_width =
-        rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
-    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
-        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
-    rb_status s = rb_rolling_model_friction(model, why);
-    if (s == RB_OK)
-        s = rb_contact_residual(&model->problem, state, &v);
-    state->residual = v.scaled;
-    return s;
-}
-
-/* A row in this number of steps. */
-static rb_status compute_row(history_state *r, int steps, rb_message *why)
-{
-    rb_status s = RB_OK;
-
-    r->steps = steps;
-    memset(&r->fall, 0, sizeof r->fall);
-    rb_rolling_cycle_begin_row(r->model->cycle);
-    for (int i = 0; i < steps && s == RB_OK; i++) {
-        rb_message reason = {.text = ""};
-        s = begin_step(r, why);
-        if (s != RB_OK)
-            return s;
-        s = r->found && i + 1 == steps ? take_found(r, &reason) : solve_step(r, &reason);
-        if (s == RB_INTERRUPTED)
-            return rb_fail(why, s, "interrupted after step %d of %d", r->history->n, r->rows);
-        s = assess(r, s, &reason, why);
-        if (s >= 0)
-            end_step(r, s);
-        if (s == RB_OK)
-            s = rb_rolling_check_crushed(r->model, why);
-    }
-    return s;
-}
-
-/* ---- Rows at rest in as many steps as they need ------------------------------------- */
-
-/* What a row at rest changes, to compute it again in other steps. */
-typedef struct {
-    rb_rolling_states state; /* one */
-    int row, part;
-    double shift, half_width, interval, mu_given, strain;
-    double *past; /* coefficients of friction, plastic slip, displacements that the bodies bring,
-                     and what those that relax remember */
-} bookmark;
-
-static void bookmark_free(bookmark *b)
-{
-    rb_rolling_states_free(&b->state);
-    free(b->past);
-}
-
-static rb_status bookmark_set(const history_state *r, bookmark *b)
-{
-    const rb_rolling_model *model = r->model;
-    const size_t n = (size_t)model->mesh.n, m = n + 1;
-    const size_t size = rb_rolling_memory_track_size(&r->particles.past);
-
-    *b = (bookmark){.row = r->row,
-                    .part = r->part,
-                    .shift = r->shift,
-                    .half_width = model->half_width,
-                    .interval = r->particles.interval,
-                    .mu_given = r->particles.mu_given,
-                    .strain = r->particles.strain,
-                    .past = rb_alloc(2 * n + 2 * m + size, 1)};
-    if (!b->past)
-        return RB_ENOMEM;
-    rb_rolling_memory_track_save(&r->particles.past, b->past + 2 * n + 2 * m);
-    if (r->history->n == 0) /* bodies that relax have no problem yet, and others no past */
-        return RB_OK;
-    memcpy(b->past, model->problem.bound, n * sizeof *b->past);
-    if (model->carried.yielded)
-        memcpy(b->past + n, model->carried.yielded, n * sizeof *b->past);
-    memcpy(b->past + 2 * n, model->bodies.f.w0, 2 * m * sizeof *b->past);
-    return rb_rolling_states_keep(model, r->history, 0, 1, &b->state);
-}
-
-static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    const size_t n = (size_t)model->mesh.n, m = n + 1;
-    rb_status s = RB_OK;
-
-    r->row = b->row;
-    r->part = b->part;
-    r->shift = b->shift;
-    model->half_width = b->half_width;
-    r->particles.mu_given = b->mu_given;
-    r->particles.strain = b->strain;
-    rb_rolling_memory_track_restore(&r->particles.past, b->past + 2 * n + 2 * m);
-    if (model->carried.yielded)
-        memcpy(model->carried.yielded, b->past + n, n * sizeof *b->past);
-    if (--r->history->n == 0) {
-        r->particles.interval = b->interval; /* the first step builds them again */
-        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, &model->problem);
-        return RB_OK;
-    }
-    if (rb_rolling_relaxes(r->rc))
-        s = rb_rolling_particles_bodies(&r->particles, b->interval, why);
-    if (s != RB_OK)
-        return s;
-    memcpy(model->bodies.f.w0, b->past + 2 * n, 2 * m * sizeof *b->past);
-    memcpy(model->problem.bound, b->past, n * sizeof *b->past);
-    rb_rolling_states_get(&b->state, 0, &model->state);
-    return RB_OK;
-}
-
-/* How much the tractions of a state differ from others, as a part of what the load makes. */
-static double differs(const rb_rolling_model *model, const rb_rolling_states *other)
-{
-    const rb_contact_state *state = &model->state;
-    const double *h = model->bodies.f.h, P = rb_rolling_model_load(model),
-                 mu = fmin(1.0, rb_rolling_largest_mu(model->rc));
-    double of_p = 0.0, of_q = 0.0;
-
-    for (int i = 0; i < state->n; i++) {
-        of_p += fabs(state->p[i] - other->p[i]) * h[i];
-        of_q += fabs(state->q[i] - other->q[i]) * h[i];
-    }
-    return P > 0.0 ? fmax(of_p, mu > 0.0 ? of_q / mu : 0.0) / P : 0.0;
-}
-
-static double tolerated(const rb_rolling_model *model)
-{
-    int contact = 0;
-
-    for (int i = 0; i < model->state.n; i++)
-        contact += model->state.p[i] > 0.0;
-    return fmax(ROW_CHANGES, OF_AN_ELEMENT / fmax(1.0, contact));
-}
-
-/* 1: the pressure is that of the other state. */
-static int is_pressure(const rb_rolling_model *model, const rb_rolling_states *other)
-{
-    const double p0 = rb_norm_inf((size_t)model->state.n, model->state.p);
-    int same = 1;
-
-    for (int i = 0; i < model->state.n; i++)
-        same &= fabs(model->state.p[i] - other->p[i]) <= 1e-9 * p0;
-    return same;
-}
-
-/* 1: a row at rest has one answer, in however many steps it is computed: without contact at its
- * end, without friction and memory, or if a force or shift alone moved bodies that are not
- * coupled, no bulk stress strained them, and no law changed on the way. */
-static int is_one_step_enough(const history_state *r, const bookmark *before)
-{
-    const rb_rolling_model *model = r->model;
-    const int coupled = rb_contact_operator_response(model->problem.op).coupled, row = before->row,
-              is_first = before->state.n == 0;
-    const double *mu = r->program->mu;
-
-    if (rb_rolling_relaxes(r->rc))
-        return 0;
-    return model->problem.mu == 0.0 || rb_rolling_model_load(model) == 0.0 ||
-           (!coupled && rb_rolling_bulk_strain(model->rc) == before->strain &&
-            !(mu && row > 0 && mu[row] != mu[row - 1]) &&
-            !rb_rolling_law_depends_on_state(model->rc) &&
-            (is_first || is_pressure(model, &before->state)));
-}
-
-/* The falls in a step of the row in as many steps, half as many and so on: what falls on a path
- * falls half as far in half a step; a jump does not. */
-static int is_gradual(const double fall[LOOKED_BACK])
-{
-    return !(fall[0] > 0.5 * fall[LOOKED_BACK - 1]);
-}
-
-/* 1: the row in `steps` does not tell whether the contact has jumped on the way, or from where. */
-static int may_jump(const history_state *r, int steps, const double fall[LOOKED_BACK])
-{
-    const rb_rolling_history *h = r->history;
-    const int row = h->n - 1;
-
-    if (!rb_rolling_law_depends_on_state(r->model->rc))
-        return 0;
-    return steps < STEPS_TO_JUMP
-               ? fall[0] > FALLS || (h->stick[row] == 0 && h->slipping[row] > 0 &&
-                                     (row == 0 || h->stick[row - 1] > 0))
-               : fall[0] > FALLS && (is_gradual(fall) || fabs(fall[0] - fall[1]) > FALLS);
-}
-
-static void note_jump(const history_state *r)
-{
-    rb_rolling_rows *rows = &r->model->rows;
-
-    if (rows->jumped > 0)
-        return;
-    rows->jumped = r->history->n;
-    rows->jump_shift = r->fall.shift;
-    rows->jump_force = r->fall.force;
-}
-
-/* Steps are halved until the state at the end of the row no longer depends on them. */
-static rb_status compute_row_at_rest(history_state *r, rb_message *why)
-{
-    const int given = steps_at_rest(r);
-    double fall[LOOKED_BACK] = {0.0};
-    bookmark start;
-    rb_rolling_states coarser = {0};
-    rb_status s;
-
-    if (given > 0)
-        return compute_row(r, given, why);
-    s = bookmark_set(r, &start);
-    if (s == RB_OK)
-        s = compute_row(r, 1, why);
-    double change = s == RB_OK && !is_one_step_enough(r, &start) ? INFINITY : 0.0;
-    int steps = 1;
-    while (s == RB_OK && steps < ROW_STEPS &&
-           (change > tolerated(r->model) || may_jump(r, steps, fall))) {
-        steps *= 2;
-        s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);
-        if (s == RB_OK)
-            s = bookmark_return(&start, r, why);
-        if (s == RB_OK)
-            s = compute_row(r, steps, why);
-        if (s == RB_OK)
-            change = differs(r->model, &coarser);
-        for (int k = LOOKED_BACK - 1; k > 0; k--)
-            fall[k] = fall[k - 1];
-        fall[0] = r->fall.of_P;
-    }
-    if (s == RB_OK && steps >= STEPS_TO_JUMP && fall[0] > FALLS && !is_gradual(fall))
-        note_jump(r);
-    if (s == RB_OK && change > tolerated(r->model) && change > r->model->rows.changes) {
-        r->model->rows.changes = change;
-        r->model->rows.changed = r->history->n;
-    }
-    rb_rolling_states_free(&coarser);
-    bookmark_free(&start);
-    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the steps of a row") : s;
-}
+/* ---- The last cycle -------------------------------------------------------------- */
 
 /* The row at which the last cycle begins: the last row and the one before it are prescribed as it
  * and the one before it; -1: none is. */
@@ -707,15 +134,26 @@ static void find_cycle(const history_state *r)
     h->cycle_rows = j < 0 ? 0 : last - j;
 }
 
+/* ---- All rows -------------------------------------------------------------------- */
+
+/* Steps of the next row, where its state is given. */
+static int steps_found(const history_state *r)
+{
+    const int known = rb_rolling_row_is_at_rest(r) ? rb_rolling_row_steps_at_rest(r)
+                      : r->is_variant              ? 0
+                                                   : r->rolled;
+    return known > 0 ? known : r->found->substeps[r->history->n];
+}
+
 static rb_status all_rows(history_state *r, rb_message *why)
 {
     const rb_rolling_observer *o = r->observer;
 
     for (int k = 0; k < r->rows; k++) {
-        const int rests = is_at_rest(r);
-        const rb_status s = r->found ? compute_row(r, steps_found(r), why)
-                            : rests  ? compute_row_at_rest(r, why)
-                                     : compute_row(r, r->rolled, why);
+        const int rests = rb_rolling_row_is_at_rest(r);
+        const rb_status s = r->found ? rb_rolling_row_compute(r, steps_found(r), why)
+                            : rests  ? rb_rolling_row_compute_at_rest(r, why)
+                                     : rb_rolling_row_compute(r, r->rolled, why);
         if (s != RB_OK)
             return s;
         if (r->rc->fretting && r->part == 0) {
@@ -724,7 +162,7 @@ static rb_status all_rows(history_state *r, rb_message *why)
                 return of_cycle;
         }
         if (r->found && r->found->rows.jumped == r->history->n)
-            note_jump(r);
+            rb_rolling_row_note_jump(r);
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }
@@ -1012,7 +450,7 @@ rb_status rb_rolling_follower_begin(rb_rolling_follower *f, rb_message *why)
 {
     if (f->r.step == 0)
         f->r.steps = steps_found(&f->r);
-    return begin_step(&f->r, why);
+    return rb_rolling_row_begin_step(&f->r, why);
 }
 
 int rb_rolling_follower_ends_row(const rb_rolling_follower *f)
@@ -1022,12 +460,12 @@ int rb_rolling_follower_ends_row(const rb_rolling_follower *f)
 
 rb_status rb_rolling_follower_solve(rb_rolling_follower *f, rb_message *why)
 {
-    return solve_step(&f->r, why);
+    return rb_rolling_row_solve_step(&f->r, why);
 }
 
 void rb_rolling_follower_end(rb_rolling_follower *f)
 {
-    end_step(&f->r, RB_OK);
+    rb_rolling_row_end_step(&f->r, RB_OK);
 }
 
 void rb_rolling_follower_free(rb_rolling_follower *f)
