@@ -1,5 +1,5 @@
-/* A parameter study: what varies in it (study_vary.c), its table (sweep.c) and its
- * pictures (study_picture.c). */
+/* A parameter study: what varies in it (study_vary.c), its results (study_results.c), its table
+ * (sweep.c) and its pictures (study_picture.c). */
 #ifndef ROLLBEM_CLI_STUDY_H
 #define ROLLBEM_CLI_STUDY_H
 
@@ -116,6 +116,11 @@ int cli_study_first(study *st, const rb_case *c);
 /* Refuses what any of the cases would be refused for, before anything is solved; of a
  * sample each case stands for itself. */
 cli_exit cli_study_check(study *st);
+
+/* Sets st->result and st->slopes, of the first case: refuses what it does not have. */
+cli_exit cli_study_choose_results(study *st);
+/* What has to be computed of the stress for a result: bits RB_ROW_... */
+unsigned cli_study_stress_of(const study *st, const study_result *of);
 
 /* 1: --plot or --map. */
 int cli_study_has_pictures(const study *st);

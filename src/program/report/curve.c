@@ -109,6 +109,42 @@ static double largest(int n, const double *x)
     return most;
 }
 
+/* From which creepage on nothing sticks, where there is such a point. */
+static void write_sliding(FILE *out, const rb_rolling_curve *c)
+{
+    /* The first of the points at the end of the curve at which nothing sticks. */
+    const int rising = c->n < c->rising ? c->n : c->rising;
+    int sliding = rising;
+    while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
+        sliding--;
+    if (sliding == rising)
+        return;
+    int held = sliding - 1; /* the last point before that has a solution */
+    while (held > 0 && isnan(c->stick_ratio[held]))
+        held--;
+    /* where it yields it need not slide */
+    double yields = 0.0;
+    for (int i = sliding; i < rising && c->yield_ratio; i++)
+        yields = fmax(yields, c->yield_ratio[i]);
+    if (yields > 0.0 && sliding > 0)
+        fprintf(out,
+                "  nothing sticks from a creepage between xi = %.5g and %.5g on: up to %.3g %% of "
+                "the interface yields\n",
+                c->creepage[held], c->creepage[sliding], 100.0 * yields);
+    else if (yields > 0.0)
+        fprintf(out, "  nothing sticks at any point: up to %.3g %% of the interface yields\n",
+                100.0 * yields);
+    else if (sliding > 0) {
+        fprintf(out, "  full sliding begins between xi = %.5g and %.5g", c->creepage[held],
+                c->creepage[sliding]);
+        if (!isnan(c->creep_ratio[sliding]))
+            fprintf(out, ", xi R/(mu a) = %.4g and %.4g", c->creep_ratio[held],
+                    c->creep_ratio[sliding]);
+        fputc('\n', out);
+    } else
+        fprintf(out, "  full sliding at every point\n");
+}
+
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
     void *before = rb_locale_begin();
@@ -116,11 +152,6 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         const rb_rolling_curve *c = &curves->curve[k];
         const int speeds = c->n > 1 && c->speed[0] != c->speed[1],
                   resists = speeds && rb_rolling_relaxes(curves->rc);
-        /* The first of the points at the end of the curve at which nothing sticks. */
-        const int rising = c->n < c->rising ? c->n : c->rising;
-        int sliding = rising;
-        while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
-            sliding--;
         const double mu = reference_mu(curves->rc, curves->mu[k]);
         fprintf(out, "curve, mu%s = %g: %d points in %.2g s, ", mu != curves->mu[k] ? "(0)" : "",
                 mu, c->n, c->seconds);
@@ -183,32 +214,8 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     points, points > 1 ? "s" : "", c->dissipation[least],
                     rb_unit_name(c->units, "N/mm"), c->creepage[least],
                     rb_rolling_below_zero(curves->rc, &c->last));
-        int held = sliding - 1; /* the last point before that has a solution */
-        while (held > 0 && isnan(c->stick_ratio[held]))
-            held--;
-        const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
-        /* where it yields it need not slide */
-        double yields = 0.0;
-        for (int i = sliding; i < rising && c->yield_ratio; i++)
-            yields = fmax(yields, c->yield_ratio[i]);
-        if (slides && yields > 0.0 && sliding > 0)
-            fprintf(
-                out,
-                "  nothing sticks from a creepage between xi = %.5g and %.5g on: up to %.3g %% of "
-                "the interface yields\n",
-                c->creepage[held], c->creepage[sliding], 100.0 * yields);
-        else if (slides && yields > 0.0)
-            fprintf(out, "  nothing sticks at any point: up to %.3g %% of the interface yields\n",
-                    100.0 * yields);
-        else if (slides && sliding > 0) {
-            fprintf(out, "  full sliding begins between xi = %.5g and %.5g", c->creepage[held],
-                    c->creepage[sliding]);
-            if (!isnan(c->creep_ratio[sliding]))
-                fprintf(out, ", xi R/(mu a) = %.4g and %.4g", c->creep_ratio[held],
-                        c->creep_ratio[sliding]);
-            fputc('\n', out);
-        } else if (slides)
-            fprintf(out, "  full sliding at every point\n");
+        if (!speeds && curves->mu[k] > 0.0)
+            write_sliding(out, c);
     }
     rb_locale_end(before);
 }

@@ -108,18 +108,8 @@ static json_t *summary(void)
     return with_required(object_of(properties, "the numbers of the solution"), required);
 }
 
-json_t *rb_report_json_schema(void)
+static json_t *inputs(void)
 {
-    json_t *of = json_object();
-    rb_report_json_set(&of, "schema", json_pack("{s:s}", "const", "rollbem/1"));
-    rb_report_json_set(&of, "version", typed("string", "of the program"));
-    rb_report_json_set(&of, "command", typed("string", "the command line"));
-    rb_report_json_set(&of, "conventions", typed("string", "signs and zones"));
-    rb_report_json_set(&of, "notes",
-                       list_of(typed("string", NULL), "notes on how to read the result"));
-    rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
-    rb_report_json_set(&of, "input_hash",
-                       typed("string", "of all inputs and the contents of the files they name"));
     int n;
     const rb_option *o = rb_case_describe(&n);
     json_t *properties = json_object();
@@ -136,7 +126,22 @@ json_t *rb_report_json_schema(void)
                                json_pack("[s, s, s, s]", "number", "null", "string", "array"));
         rb_report_json_set(&properties, o[i].name, schema);
     }
-    rb_report_json_set(&of, "inputs", object_of(properties, "every value used, defaults included"));
+    return object_of(properties, "every value used, defaults included");
+}
+
+json_t *rb_report_json_schema(void)
+{
+    json_t *of = json_object();
+    rb_report_json_set(&of, "schema", json_pack("{s:s}", "const", "rollbem/1"));
+    rb_report_json_set(&of, "version", typed("string", "of the program"));
+    rb_report_json_set(&of, "command", typed("string", "the command line"));
+    rb_report_json_set(&of, "conventions", typed("string", "signs and zones"));
+    rb_report_json_set(&of, "notes",
+                       list_of(typed("string", NULL), "notes on how to read the result"));
+    rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
+    rb_report_json_set(&of, "input_hash",
+                       typed("string", "of all inputs and the contents of the files they name"));
+    rb_report_json_set(&of, "inputs", inputs());
     rb_report_json_set(&of, "summary", summary());
     rb_report_json_set(&of, "table",
                        columns(&rb_rolling_solution_columns, 1, "an entry per contact element"));

@@ -183,6 +183,37 @@ void rb_report_bodies(FILE *out, const rb_rolling_case *rc, rb_units units)
     rb_locale_end(before);
 }
 
+/* How many elements stick, slip and are separated, and a strip of their zones. */
+static void write_elements(FILE *out, const rb_rolling_solution *s, int width)
+{
+    enum { LONGEST = 200 };
+    const char *mm = rb_unit_name(s->units, "mm");
+    char strip[LONGEST + 1];
+    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
+    int frictionless = 0;
+    for (int i = 0; i < s->n; i++)
+        frictionless += rb_report_zone(s, i) == RB_REPORT_FRICTIONLESS;
+    fprintf(out, "  elements  %d: ", s->n);
+    if (frictionless > 0)
+        fprintf(out, "%d touch without friction, ", frictionless);
+    if (frictionless < s->contact || s->contact == 0)
+        fprintf(out, "%d stick, %d slip, ", s->stick, s->slipping - frictionless);
+    if (s->yielding >= 0)
+        fprintf(out, "%d of them yield, ", s->yielding);
+    fprintf(out, "%d separated", s->n - s->contact);
+    if (s->stick > 0) {
+        const double between = s->stick_to - s->stick_from;
+
+        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
+        fprintf(out, "; stick %.5g ... %.5g %s", fabs(s->stick_from) > least ? s->stick_from : 0.0,
+                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
+        if (s->stick_length < (1.0 - 1e-9) * between)
+            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
+    }
+    rb_report_strip(s, room < 8 ? 8 : room, strip);
+    fprintf(out, "\n            %s\n", strip);
+}
+
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     void *before = rb_locale_begin();
@@ -255,31 +286,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
             fprintf(out, ": A takes %.4g %%", 100.0 * s->heat_share_a);
         fputc('\n', out);
     }
-    enum { LONGEST = 200 };
-    char strip[LONGEST + 1];
-    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
-    int frictionless = 0;
-    for (int i = 0; i < s->n; i++)
-        frictionless += rb_report_zone(s, i) == RB_REPORT_FRICTIONLESS;
-    fprintf(out, "  elements  %d: ", s->n);
-    if (frictionless > 0)
-        fprintf(out, "%d touch without friction, ", frictionless);
-    if (frictionless < s->contact || s->contact == 0)
-        fprintf(out, "%d stick, %d slip, ", s->stick, s->slipping - frictionless);
-    if (s->yielding >= 0)
-        fprintf(out, "%d of them yield, ", s->yielding);
-    fprintf(out, "%d separated", s->n - s->contact);
-    if (s->stick > 0) {
-        const double between = s->stick_to - s->stick_from;
-
-        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
-        fprintf(out, "; stick %.5g ... %.5g %s", fabs(s->stick_from) > least ? s->stick_from : 0.0,
-                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
-        if (s->stick_length < (1.0 - 1e-9) * between)
-            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
-    }
-    rb_report_strip(s, room < 8 ? 8 : room, strip);
-    fprintf(out, "\n            %s\n", strip);
+    write_elements(out, s, width);
     /* What it ran on: where it was slow, this says why. */
     fprintf(out, "  computed  in %.3g s", s->seconds_total);
     if (s->boundary_elements > 0)

@@ -279,6 +279,24 @@ rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_s
     return status;
 }
 
+/* Coulomb's law between the printed slip and the printed tractions: in stick no slip,
+ * in slip the friction against it. */
+static int slip_violations(const rb_rolling_model *model, const rb_rolling_solution *s)
+{
+    const double small = 1e-9 * model->problem.slip_length / s->h[s->n / 2];
+    int violations = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
+        const int zone = s->zone[i];
+        violations += zone == RB_ZONE_STICK ? slip != 0.0
+                      : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
+                      : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
+                                                                                        : 0;
+    }
+    return violations;
+}
+
 rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                    rb_message *why)
 {
@@ -353,20 +371,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
     s->kappa = NAN;
     if (rb_rolling_law_depends_on_state(model->rc))
         status = rb_rolling_law_kappa(model, &s->kappa);
-    /* Coulomb's law between the printed slip and the printed tractions: in stick no slip,
-     * in slip the friction against it. */
-    const double small = 1e-9 * model->problem.slip_length / s->h[s->n / 2];
-    int violations = 0;
-
-    for (int i = 0; i < s->n; i++) {
-        const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
-        const int zone = s->zone[i];
-        violations += zone == RB_ZONE_STICK ? slip != 0.0
-                      : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
-                      : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
-                                                                                        : 0;
-    }
-    s->slip_violations = violations;
+    s->slip_violations = slip_violations(model, s);
     /* What friction turns into heat, from slip and friction alone. */
     s->dissipation =
         rb_rolling_dissipated_power(model->rc, s->n, s->shift, s->q, s->h, model->problem.e_T);
