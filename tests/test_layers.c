@@ -69,9 +69,10 @@ static const struct {
     {"rolling/case", " body/body body/gap body/internal body/mesh history/history rolling "
                      "solve/law solve/notes solve/pressed solve/zone "},
     {"rolling/body", " case/derived case/internal solve/model solve/variant "},
-    {"rolling/solve", " body/body body/far_field body/former_place body/gap body/internal "
-                      "body/interpolant body/mesh case/derived case/internal history/history "
-                      "study/study "},
+    {"rolling/solve",
+     " body/body body/far_field body/former_place body/gap body/internal "
+     "body/interpolant body/mesh body/perturbation case/derived case/internal history/history "
+     "study/study "},
     {"rolling/history", " body/body body/former_place body/internal body/mesh case/derived "
                         "case/internal solve/columns solve/cycle solve/field solve/formulation "
                         "solve/heat solve/law solve/model solve/patches solve/power "

@@ -2,6 +2,7 @@
  * interlayer (4.5, 4.10): each body by its row of the table of bodies. */
 #include "rolling/body/far_field.h"
 #include "rolling/case/internal.h"
+#include "rolling/solve/model.h"
 
 #include <cblas.h>
 #include <gsl/gsl_math.h>

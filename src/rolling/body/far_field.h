@@ -1,11 +1,8 @@
-/* What the rest of wheels adds to half-planes, and changes of bodies to first order. */
+/* What the rest of wheels adds to half-planes. */
 #ifndef ROLLBEM_ROLLING_BODY_FAR_FIELD_H
 #define ROLLBEM_ROLLING_BODY_FAR_FIELD_H
 
 #include "rolling/body/internal.h"
-#include "rolling/solve/variant.h"
-
-/* ---- far_field.c ---------------------------------------------------------------- */
 
 /* 1 if the bodies have a far field of which few points tell all: wheels of one elastic material
  * whose near field is subtracted, and gaps that say nothing about places without elements. */
@@ -21,14 +18,5 @@ rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_f
 void rb_rolling_far_field_free(rb_rolling_far_field *far);
 /* Adds it to a flexibility that is stored.  RB_ENOMEM. */
 rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f);
-
-/* ---- perturbation.c ------------------------------------------------------------- */
-
-/* Adds to w (2m) what the bodies of v, on its mesh, displace more than those of the model under the
- * tractions of the model, to first order; x, h: m, of the elements of v, written where A changes.
- * RB_INACCURATE: elements outside the contact come or go. */
-rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
-                                      const rb_rolling_model *v, double *w, double *x, double *h,
-                                      rb_message *why);
 
 #endif

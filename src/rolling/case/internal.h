@@ -3,7 +3,6 @@
 #define ROLLBEM_ROLLING_CASE_INTERNAL_H
 
 #include "rolling/case/derived.h"
-#include "rolling/case/options.h"
 
 /* 1 if the boundary of wheels outside the contact is finer than needed for finding the
  * contact; the second function sets the plan to the default boundary. */
@@ -72,8 +71,7 @@ rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
  * has its default is not given. */
 rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
                                   rb_message *why);
-/* Checks a number against the range of an option; of the one with this name. */
-rb_status rb_rolling_check_option(const rb_option *option, double value, rb_message *why);
+/* Checks a number against the range of the option with this name. */
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
 
 #endif

@@ -2,6 +2,7 @@
  * from this table. */
 #include "rolling/body/internal.h"
 #include "rolling/case/internal.h"
+#include "rolling/case/options.h"
 
 #include <math.h>
 #include <stdio.h>

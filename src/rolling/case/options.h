@@ -191,6 +191,8 @@ int rb_option_is_length(const rb_option *option, const void *target);
 
 /* 1: the number is in the range of the option. */
 int rb_option_in_range(const rb_option *option, double value);
+/* RB_EINVAL where it is not: "young: expected a number > 0, got -1". */
+rb_status rb_rolling_check_option(const rb_option *option, double value, rb_message *why);
 
 /* ---- The options of a case ------------------------------------------------------- */
 

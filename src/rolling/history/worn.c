@@ -3,6 +3,7 @@
 #include "rolling/body/body.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/internal.h"
+#include "rolling/case/options.h"
 #include "rolling/history/internal.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/formulation.h"

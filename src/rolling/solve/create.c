@@ -3,6 +3,7 @@
 #include "rolling/body/far_field.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/formulation.h"
+#include "rolling/solve/model.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/zone.h"
 

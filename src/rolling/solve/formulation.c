@@ -4,6 +4,7 @@
 #include "rolling/body/former_place.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/formulation.h"
+#include "rolling/solve/kinematic.h"
 #include "rolling/solve/model.h"
 
 #include <float.h>
@@ -13,27 +14,17 @@
 
 /* ---- The kinematic operator A ------------------------------------------------------ */
 
-/* (A w)_i = sum over k of stencil_k w_{i-1+k}, w the tangential displacement of the n
- * elements and of one downstream and two upstream of them. */
-typedef struct {
-    int n, differences; /* 0: A = I */
-    double stencil[4];
-    double local[4]; /* the stencil on what the interlayer adds to w */
-    double *outside; /* 2 x 2n: displacement one element downstream and two upstream; NULL
-                        where A does not ask for it; owned */
-} kinematic;
-
 /* The member t of the family of second-order differences whose leading edge is not
  * shifted (theory-rolling.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4).  The local part of
  * F_TT takes another member of the family: t = 1, whose leading edge is not shifted there
  * (theory-rolling.md 4.10). */
 static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                               kinematic *A)
+                               rb_rolling_kinematic *A)
 {
     static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
     const double t = 0.0740956;
 
-    *A = (kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
+    *A = (rb_rolling_kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
     if (!A->differences || rc->slip_operator == RB_SLIP_UPSTREAM) {
         A->stencil[1] = 1.0;
         A->stencil[2] = A->differences ? -1.0 : 0.0;
@@ -49,128 +40,16 @@ static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodie
     return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside) : RB_ENOMEM;
 }
 
-/* Row i of A w for the displacement w of the n elements and the one upstream; outside: of
- * one element downstream and the second one upstream. */
-static double row_of(const kinematic *A, const double *w, const double outside[2], int i)
-{
-    const double *a = A->stencil;
-    if (!A->outside)
-        return A->differences ? w[i] - w[i + 1] : w[i];
-    const double before = i > 0 ? w[i - 1] : outside[0],
-                 second = i + 1 < A->n ? w[i + 2] : outside[1];
-    return a[0] * before + a[1] * w[i] + a[2] * w[i + 1] + a[3] * second;
-}
-
-/* ---- Its two operators ------------------------------------------------------------- */
-
-/* Products by Fourier transforms. */
-typedef struct {
-    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
-    kinematic A;          /* owned, as the rest */
-    double local[4];      /* what is added to A q for the interlayer: zeros where there is none
-                           */
-    rb_bem_circulant *inverse;
-    double *density; /* n: lengths of elements over that of the middle one; NULL: all are equal */
-    double *w;       /* 2m: displacements of one product */
-    double *slip;    /* n: A w_T */
-} transforms;
-
-static void transforms_free(void *context)
-{
-    transforms *t = context;
-
-    rb_bem_circulant_free(t->inverse);
-    free(t->A.outside);
-    free(t->density);
-    free(t->w);
-    free(t->slip);
-    free(t);
-}
-
-static void transforms_apply(void *context, const double *r, const double **gap,
-                             const double **slip)
-{
-    const transforms *t = context;
-    const kinematic A = t->A; /* no store to slip changes it: the loop has no branches */
-    const double *w_T = t->w + A.n + 1;
-    double outside[2] = {0.0, 0.0};
-
-    rb_bem_flexibility_apply(&t->f, r, t->w);
-    for (int j = 0; A.outside && j < 2 * A.n; j++)
-        for (int k = 0; k < 2; k++)
-            outside[k] += A.outside[2 * (size_t)j + (size_t)k] * r[j];
-    for (int i = 0; i < A.n; i++)
-        t->slip[i] = row_of(&A, w_T, outside, i);
-    for (int k = 0; k < 4; k++)
-        for (int i = k < 1; t->local[k] != 0.0 && i < A.n && i - 1 + k < A.n; i++)
-            t->slip[i] += t->local[k] * r[A.n + i - 1 + k];
-    *gap = t->w;
-    *slip = t->slip;
-}
-
-static void transforms_precondition(void *context, int tangential, double *line)
-{
-    const transforms *t = context;
-
-    if (tangential && t->A.differences)
-        rb_bem_circulant_apply_difference(t->inverse, line, line);
-    else
-        rb_bem_circulant_apply(t->inverse, line, line);
-    /* Elements that change their lengths slowly answer, over their numbers, like equal ones that
-     * carry p h: ln|x_i - x_j| is ln|i - j| and something smooth. */
-    for (int i = 0; t->density && i < t->A.n; i++)
-        line[i] /= t->density[i];
-}
-
-static void transforms_precondition_yielding(void *context, double hardening, double *line)
-{
-    const transforms *t = context;
-
-    rb_bem_circulant_apply_yielding(t->inverse, hardening, line, line);
-}
-
-/* A: taken over, also on failure. */
-static rb_status transform_operator(const rb_bem_flexibility *f, double compliance, kinematic *A,
-                                    rb_contact_operator **op)
-{
-    transforms *t = calloc(1, sizeof *t);
-
-    if (!t)
-        return RB_ENOMEM;
-    t->f = *f;
-    t->A = *A;
-    A->outside = NULL;
-    for (int k = 0; k < 4; k++)
-        t->local[k] = compliance * (A->local[k] - A->stencil[k]);
-    t->w = rb_alloc(2 * (size_t)f->m, 1);
-    t->slip = rb_alloc((size_t)A->n, 1);
-    rb_status s = t->w && t->slip
-                      ? rb_bem_circulant_create(&t->f, t->A.stencil, t->A.local, &t->inverse)
-                      : RB_ENOMEM;
-    const double middle = f->h[A->n / 2];
-    if (s == RB_OK && !(fabs(f->h[0] / middle - 1.0) < 0.1)) {
-        t->density = rb_alloc((size_t)A->n, 1);
-        s = t->density ? RB_OK : RB_ENOMEM;
-        for (int i = 0; i < A->n && t->density; i++)
-            t->density[i] = f->h[i] / middle;
-    }
-    if (s != RB_OK) {
-        transforms_free(t);
-        return s;
-    }
-    const rb_contact_products by = {transforms_apply, transforms_precondition, transforms_free, t,
-                                    transforms_precondition_yielding};
-    return rb_contact_operator_products(A->n, &by, op);
-}
+/* ---- Its operator ------------------------------------------------------------- */
 
 /* The matrix, with the products at its side where these solve sooner. */
 static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                               kinematic *A, rb_contact_operator **op)
+                               rb_rolling_kinematic *A, rb_contact_operator **op)
 {
     rb_contact_operator *products = NULL;
 
     if (!bodies->F)
-        return transform_operator(&bodies->f, rc->interlayer_tangential, A, op);
+        return rb_rolling_transform_operator(&bodies->f, rc->interlayer_tangential, A, op);
     /* S = A [F_TN F_TT] (K2). */
     const int n = A->n, m = n + 1;
     const double none[2] = {0.0, 0.0};
@@ -182,7 +61,7 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
         const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
         const double *outside = A->outside ? A->outside + 2 * (size_t)j : none;
         for (int i = 0; i < n; i++)
-            S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
+            S[i + (size_t)j * n] = rb_rolling_kinematic_row(A, w_T, outside, i);
     }
     /* S has A on all of F_TT so far. */
     for (int i = 0; i < n && A->outside; i++)
@@ -196,7 +75,8 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
     /* another matrix than that of the bodies, as of a worn surface, has no products */
     if (s == RB_OK && bodies->transforms.n > 0 &&
         bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
-        s = transform_operator(&bodies->transforms, rc->interlayer_tangential, A, &products);
+        s = rb_rolling_transform_operator(&bodies->transforms, rc->interlayer_tangential, A,
+                                          &products);
         if (s == RB_OK)
             rb_contact_operator_add_products(*op, products);
     }
@@ -365,7 +245,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_
                                     const rb_rolling_bodies *bodies, const rb_rolling_past *past,
                                     rb_contact_problem *p, rb_message *why)
 {
-    kinematic A;
+    rb_rolling_kinematic A;
     rb_contact_operator *op = NULL;
     rb_status s = set_kinematic(rc, bodies, &A);
 
@@ -393,7 +273,7 @@ rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies, rb_contact_problem *p,
                                             rb_message *why)
 {
-    kinematic A;
+    rb_rolling_kinematic A;
     rb_status s = set_kinematic(rc, bodies, &A);
 
     rb_contact_operator *op = NULL;

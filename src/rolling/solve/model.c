@@ -4,7 +4,8 @@
 #include "rolling/solve/cycle.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
-#include "rolling/solve/stress.h"
+#include "rolling/solve/model.h"
+#include "rolling/solve/given_tractions.h"
 #include "rolling/solve/temperature.h"
 #include "rolling/solve/zone.h"
 

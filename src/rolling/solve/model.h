@@ -70,6 +70,9 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 /* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
 
+/* Edges of a patch that are only known to lie within one element. */
+enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };
+
 /* ---- Friction that depends on the state (F2, F3) -------------------------------- */
 
 /* kappa (theory-rolling.md F3) of the state, for friction that depends on the state.  Above 1 a

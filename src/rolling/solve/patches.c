@@ -3,7 +3,6 @@
 #include "rolling/case/derived.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
-#include "rolling/solve/solution.h"
 
 #include <gsl/gsl_math.h>
 

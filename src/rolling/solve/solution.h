@@ -28,9 +28,6 @@ rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, doubl
 rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                    rb_message *why);
 
-/* Edges of a patch that are only known to lie within one element. */
-enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };
-
 /* Friction power per area and unit speed [stress], n values with sum power h =
  * dissipation; wear laws use it.  In steady rolling the slip is known between midpoints,
  * and half of it is assigned to each of the two elements (theory-solvers.md 6).  NAN in

@@ -1,6 +1,7 @@
 /* The same contact on the same elements for a slightly different case; derivatives of a
  * solution are computed from such variants (theory-solvers.md, D1). */
 #include "rolling/body/far_field.h"
+#include "rolling/body/perturbation.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
