@@ -29,14 +29,21 @@ static void add(names *all, const char *name)
     snprintf(all->name[all->n++], WORD, "%s", name);
 }
 
-/* The text of a header without comments. */
-static char *header_text(const char *path)
+static char *file_text(const char *path)
 {
     static char text[200000];
     FILE *file = NOT_NULL(fopen(path, "r"));
     const size_t size = fread(text, 1, sizeof text - 1, file);
     fclose(file);
+    assert_true(size < sizeof text - 1);
     text[size] = '\0';
+    return text;
+}
+
+/* The text of a header without comments. */
+static char *header_text(const char *path)
+{
+    char *text = file_text(path);
     for (char *open = strstr(text, "/*"); open; open = strstr(open, "/*")) {
         char *close = NOT_NULL(strstr(open, "*/"));
         memset(open, ' ', (size_t)(close + 2 - open));
@@ -117,7 +124,7 @@ TEST(exports_are_the_headers)
     skip_under_sanitizers();
     declared(&in_headers);
     exported(&in_library);
-    assert_in_range(in_headers.n, 100, 184);
+    assert_in_range(in_headers.n, 100, 200);
     for (int k = 0; k < in_library.n; k++)
         if (!has(&in_headers, in_library.name[k])) {
             print_error("%s is exported and in no header\n", in_library.name[k]);
@@ -129,6 +136,52 @@ TEST(exports_are_the_headers)
             strange++;
         }
     assert_int_equal(strange, 0);
+}
+
+static int lines_of(const char *text)
+{
+    int lines = 0;
+    for (const char *at = strchr(text, '\n'); at; at = strchr(at + 1, '\n'))
+        lines++;
+    return lines;
+}
+
+/* What docs/library.md says of them: the functions of each header, their sum, the lines. */
+TEST(library_md_counts_the_headers)
+{
+    static char page[200000];
+    static names of_header;
+    char header[WORD], path[300];
+    int functions, sum = 0, lines = 0, rows = 0, said_sum = 0, said_lines = 0;
+
+    strcpy(page, file_text("docs/library.md"));
+    assert_int_equal(sscanf(NOT_NULL(strstr(page, "what a caller needs: ")),
+                            "what a caller needs: %d functions, on fewer than %d", &said_sum,
+                            &said_lines),
+                     2);
+    for (const char *at = strstr(page, "\n| `"); at; at = strstr(at + 1, "\n| `")) {
+        if (sscanf(at, "\n| `%70[a-z.]` | %d |", header, &functions) != 2)
+            continue;
+        snprintf(path, sizeof path, "include/rollbem/%s", header);
+        of_header.n = 0;
+        add_declared(path, &of_header);
+        if (of_header.n != functions)
+            print_error("%s has %d functions\n", header, of_header.n);
+        assert_int_equal(of_header.n, functions);
+        sum += functions;
+        rows++;
+    }
+    assert_int_equal(rows, 10);
+    assert_int_equal(sum, said_sum);
+
+    DIR *folder = NOT_NULL(opendir("include/rollbem"));
+    for (const struct dirent *e = readdir(folder); e; e = readdir(folder)) {
+        snprintf(path, sizeof path, "include/rollbem/%.200s", e->d_name);
+        if (strstr(e->d_name, ".h"))
+            lines += lines_of(file_text(path));
+    }
+    closedir(folder);
+    assert_in_range(lines, said_lines - 200, said_lines - 1);
 }
 
 TEST(one_header_has_them_all)

@@ -23,14 +23,6 @@
 #define RB_PUBLIC_END RB_EXTERN_C_END
 #endif
 
-/* Behind a declaration: argument f is a format of printf, those from number a on are what it
- * formats. */
-#ifdef __GNUC__
-#define RB_PRINTF(f, a) __attribute__((format(printf, f, a)))
-#else
-#define RB_PRINTF(f, a)
-#endif
-
 RB_PUBLIC_BEGIN
 
 #define RB_VERSION "0.1.0"
@@ -69,12 +61,6 @@ typedef struct {
     int row;        /* of the table that this option names, from 1; 0: of none */
     int rest;       /* where in the text the words behind the name, and the row, begin */
 } rb_message;
-
-/* One allowed word of an option, and the value (of an enum) that the word stands for. */
-typedef struct {
-    const char *name;
-    int value;
-} rb_choice;
 
 /* All computations use mm, N, MPa and s, and options and results name their units in this system;
  * other units are converted on input and output. */

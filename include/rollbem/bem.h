@@ -35,7 +35,9 @@ typedef enum {
  * to (x1, y1)[j]. The contact elements, if any, are contiguous (numbers contact_first to
  * contact_first + contact_n - 1) and ordered by increasing x; their condition is
  * RB_BEM_CONTACT in both directions.  The element after them is the upstream element
- * (theory.md 4.2); it is free of traction, and its displacement is kept. */
+ * (theory.md 4.2); it is free of traction, and its displacement is kept.  The functions that take a
+ * mesh refuse one whose contours do not close, whose elements have no length or whose contact
+ * elements are not contiguous: RB_EINVAL, and why names the element. */
 typedef struct {
     int n;
     double *x0, *y0, *x1, *y1;   /* n each [length]; owned */
@@ -46,10 +48,6 @@ typedef struct {
 
 rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh); /* all traction-free */
 void rb_bem_mesh_free(rb_bem_mesh *mesh);
-
-/* Checks that every contour closes, that no element has zero length and that the contact
- * elements are contiguous.  RB_EINVAL: why names the element. */
-rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why);
 
 typedef enum {
     RB_BEM_ARC,      /* clamped arc at the top */
@@ -162,49 +160,6 @@ typedef struct {
     const double *thickness, *young, *poisson; /* n each */
 } rb_bem_stack;
 
-/* A body whose influence function depends on the distance alone (a wheel's does not).  It
- * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
- * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
- * pointers are borrowed. */
-typedef struct {
-    rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
-                                 (instantaneous) constants */
-    double datum;             /* where along the half-plane or elastic base a load moves nothing */
-    double datum_tangential;  /* the same for tangential displacement; only for a
-                                 homogeneous half-plane; 0: datum */
-    double datum_memory;      /* of a homogeneous half-plane in steady rolling: sum f_k G(d/L_k), by
-                                 which the memory of loads that have passed differs from that of
-                                 ln(d/|x|) (V2), see rb_bem_memory_of_datum; 0 for a wheel's */
-    int terms;                /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
-                                 exp(-t/tau_k)) */
-    const double *ratio;      /* terms: f_k >= 0 */
-    const double *length;     /* terms: rolling speed times tau_k [length], >= 0 */
-    double thickness;         /* of the layer; 0: half-plane */
-    int elastic_base;         /* of the layer; 0: rigid */
-    rb_bem_material base;
-    int smooth_base;           /* of one elastic layer: it slides on its base without friction and
-                                  does not leave it (L9); its displacement along the surface has no
-                                  datum */
-    const rb_bem_stack *stack; /* of several elastic layers, the first of which is that of
-                                  `material` and `thickness`; NULL: one */
-    double period; /* of tractions that repeat themselves along an elastic half-plane [length]: its
-                      displacement has the mean 0 and no datum (P1); 0: none */
-} rb_bem_surface;
-
-/* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from
- * the loaded point. */
-rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
-
-/* ends as in rb_bem_mesh_cylinder, but without the bound R. */
-rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,
-                                     rb_bem_flexibility *f, rb_message *why);
-
-/* A full disc, fixed at its centre. */
-typedef struct {
-    double radius;
-    rb_bem_material material;
-} rb_bem_disc;
-
 /* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
 typedef struct {
     int n;
@@ -212,24 +167,11 @@ typedef struct {
     const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
 } rb_bem_edge_load;
 
-/* A wheel with rotational symmetry: a ring of one material, or a cover on a core that is
- * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
- * viscoelastic.  Pointers are borrowed. */
-typedef struct {
-    double radius, inner;     /* outer and inner radius of the material, bonded at `inner` */
-    rb_bem_material material; /* its glassy (instantaneous) constants */
-    int terms;
-    const double *ratio, *length;
-    double hub; /* radius of the rigid hub below an elastic core; 0: rigid at `inner` */
-    rb_bem_material core;
-} rb_bem_wheel;
-
-/* The flexibility of the glassy wheel by its waves around the circumference (B12): no
- * boundary elements outside the contact, n_c^2 work.  ends as in rb_bem_mesh_cylinder;
- * the elements are arcs, f->h holds their chords.  RB_EINVAL: invalid radii, materials or
- * ends; RB_SINGULAR: the core hardly holds the cover; RB_ENOMEM. */
-rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                                   rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
+/* The flexibility of an elastic half-plane (Flamant, theory.md 3) whose displacement is zero at the
+ * distance datum > 0 along the surface from the loaded point.  ends as in rb_bem_mesh_cylinder, but
+ * without the bound R. */
+rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends, rb_bem_material material,
+                                       double datum, rb_bem_flexibility *f, rb_message *why);
 
 /* Two bodies in contact (4.5): F_A + F_B.  B is computed as an upper body and mirrored,
  * so its coupling blocks enter with the opposite sign.  Takes ownership of a and b and
@@ -271,15 +213,6 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, dou
  * point (sxx, syy, sxy); on y = 0 the limit from inside. */
 rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points points,
                                   double *stress);
-
-/* ---- A reference ------------------------------------------------------------------- */
-
-/* Exact solution of an elastic disc whose rim carries uniform tractions (p_r, p_t) on an
- * arc of angular width h, 0 < h < 2 pi: displacement of the rim (u_r outwards, u_t
- * counter-clockwise) at `angle`, counter-clockwise from the middle of the arc, up to a
- * rigid motion.  A force and a couple at the centre balance the resultant.  response
- * [length/stress]: 2 x 2 column-major, rows (u_r, u_t), columns (p_r, p_t). */
-rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, double response[4]);
 
 RB_PUBLIC_END
 

@@ -25,8 +25,7 @@ RB_PUBLIC_BEGIN
 /* ---- Options --------------------------------------------------------------------- */
 
 /* Source of a value: 0: the default; k > 0: line k of the case file; RB_GIVEN_ARGUMENT:
- * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number and
- * rb_case_set_word. */
+ * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number. */
 enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 
 /* ---- Cases ----------------------------------------------------------------------- */
@@ -47,10 +46,6 @@ typedef enum {
 
 /* Creates a case with the default values; it is already resolved.  NULL: no memory. */
 rb_case *rb_case_create(rb_case_purpose purpose);
-
-/* Copies a case.  The copy borrows files and texts of c, so free it before c.  NULL: no
- * memory. */
-rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);
 
 /* Sets an option.  by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is

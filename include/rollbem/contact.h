@@ -14,43 +14,17 @@ RB_PUBLIC_BEGIN
 /* ---- The operator: displacements due to tractions ---------------------------------- */
 
 /* The operator gives the gaps F_N r and slips S r, S = A F_T (K2), of tractions r = (r_N,
- * r_T) on n elements.  There are two kinds: operators with matrices, which every solver
- * accepts, and operators with products only, for Newton's method with GMRES. */
+ * r_T) on n elements; opaque. */
 typedef struct rb_contact_operator rb_contact_operator;
 
-/* An operator with matrices.  F: the n rows of the gaps, 2n columns, leading dimension
- * ldf, borrowed.  S: n x 2n; the function takes ownership of it, also on failure.
+/* An operator with matrices, which every solver accepts.  F: the n rows of the gaps, 2n columns,
+ * leading dimension ldf, borrowed.  S: n x 2n; the function takes ownership of it, also on failure.
  * RB_ENOMEM. */
 rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
                                     rb_contact_operator **op);
 
-/* Functions of an operator with products, for a line of equal elements. */
-typedef struct {
-    /* r: 2n; *gap, *slip: n each, owned by the context and valid until its next
-     * product. */
-    void (*apply)(void *context, const double *r, const double **gap, const double **slip);
-    /* Approximate inverse of F_NN (tangential 0) or A F_TT (1); line: n, overwritten. */
-    void (*precondition)(void *context, int tangential, double *line);
-    void (*free)(void *context);
-    void *context;
-    /* Approximate inverse of 1 + hardening F_TT, hardening > 0; NULL: not available. */
-    void (*precondition_yielding)(void *context, double hardening, double *line);
-} rb_contact_products;
-
-/* Takes ownership of the context, also on failure.  RB_ENOMEM. */
-rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
-                                       rb_contact_operator **op);
-
 /* Like all functions that free something, this one accepts NULL. */
 void rb_contact_operator_free(rb_contact_operator *op);
-
-/* The matrices of an operator; F is NULL if it has none. */
-typedef struct {
-    const double *F; /* borrowed, as S */
-    int ldf;
-    const double *S; /* ld = n */
-} rb_contact_matrix;
-rb_contact_matrix rb_contact_operator_matrix(const rb_contact_operator *op);
 
 struct rb_contact_state;
 
@@ -130,6 +104,15 @@ typedef enum {
 } rb_contact_solver;
 
 typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_contact_lcp_form;
+
+typedef enum {
+    RB_ZONE_SEPARATED = 0,
+    RB_ZONE_STICK = 1,
+    RB_ZONE_SLIP_NEGATIVE = 2,  /* r_T = -mu r_N: A's surface slides towards +x */
+    RB_ZONE_SLIP_POSITIVE = 3,  /* r_T = +mu r_N */
+    RB_ZONE_YIELD_NEGATIVE = 4, /* r_T = -(yield + hardening u): the layer yields */
+    RB_ZONE_YIELD_POSITIVE = 5  /* r_T = +(yield + hardening u) */
+} rb_contact_zone;
 
 typedef struct rb_contact_state {
     int n;

@@ -34,7 +34,7 @@ typedef struct {
     rb_sparse H;      /* n x m */
     double *f;        /* n */
     double *w;        /* m */
-    double *lengths;  /* NULL, or n_c / 2 values set by rb_friction_split_rolling */
+    double *lengths;  /* NULL; of a file's rolling friction n_c / 2 lengths mu_r */
     double asymmetry; /* of a file's K, of which K is the symmetric part: max |K - K'| / max |K|;
                          0: it is symmetric to 1e-8 */
 } rb_friction_problem;
@@ -53,25 +53,10 @@ typedef struct {
 rb_status rb_friction_condense(const rb_friction_problem *global, rb_friction_problem *local,
                                rb_message *why);
 
-/* Properties of a problem that help to choose a solver. */
-typedef struct {
-    int rank;           /* of H (global) or W (local) */
-    int hyperstaticity; /* d n_c - rank */
-    int nullity;        /* of K (global form); 0 otherwise */
-    double asymmetry;   /* max |W - W'| / max |W|; 0 for the global form */
-    int indefinite;     /* 1: the symmetric part of W has a negative eigenvalue below
-                           -1e-10 of the largest entry; 0 for the global form */
-} rb_friction_facts;
-
-/* with_rank 0: ranks and nullity are not computed (they need a QR factorisation) and are
- * 0. */
-rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
-                              rb_friction_facts *facts);
-
 /* ---- Files ------------------------------------------------------------------------- */
 
-/* Reads a problem.  RB_ENOENT; RB_EFORMAT: the file holds no friction problem, or an
- * invalid one (rb_friction_problem_check). */
+/* Reads a problem.  RB_ENOENT; RB_EFORMAT: the file holds no friction problem, or an invalid one.
+ */
 rb_status rb_friction_read(const char *path, rb_friction_problem *problem, rb_message *why);
 
 /* Writes the problem as an FCLib file (HDF5), with the solution unless that is NULL.
@@ -149,10 +134,15 @@ typedef struct {
     rb_message msg;
 } rb_friction_info;
 
+typedef enum {
+    RB_FRICTION_NEEDS_W = 1, /* refuses the global form with singular K */
+    RB_FRICTION_ONLY_2D = 2
+} rb_friction_needs;
+
 typedef struct {
     const char *name, *method;            /* method: the family it belongs to */
     const char *summary;                  /* one line of help */
-    int needs;                            /* rb_friction_needs, or-ed */
+    int needs;                            /* sum of rb_friction_needs */
     const struct rb_friction_method *run; /* private, like variant */
     int variant;
 } rb_friction_solver;
@@ -162,17 +152,13 @@ const rb_friction_solver *rb_friction_solvers(int *count);
 
 rb_friction_options rb_friction_defaults(void);
 
-/* Returns 1 and writes a note if the problem is solved in the scaled measure while (13)
- * is above the tolerance and the floor. */
-int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note);
-
 /* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and (unless NULL) v are
  * written; if the problem is not solved, they are the best iterate.  RB_OK: the residual
  * in the chosen measure is at most max(tol, floor), and below tol, in the scaled measure,
  * so is that of every contact. RB_MAXITER, RB_RAY, RB_SINGULAR,
  * RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL: unknown solver, or
- * the problem is refused by rb_friction_problem_check or by the solver; info->msg has the
- * reason. info: written, or NULL. */
+ * the problem is invalid (sizes, mu < 0, NaN or infinity, K not symmetric) or refused by the
+ * solver; info->msg has the reason. info: written, or NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
                             const rb_friction_options *opt, const rb_friction_solution *solution,
                             rb_friction_info *info);
@@ -193,7 +179,7 @@ typedef struct {
 /* All solutions of a plane problem with at most 8 contacts, each once: every state of every
  * contact is tried (4^contacts).  seconds: time limit, 0: none.  The global form is condensed
  * first.  RB_TIME_LIMIT: what has been found so far; RB_EINVAL: dimension 3, in which their
- * number need not be finite, more contacts, or an error of rb_friction_problem_check;
+ * number need not be finite, more contacts, or an invalid problem;
  * RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_friction_all(const rb_friction_problem *problem, double seconds,
                           rb_friction_solutions *all, rb_message *why);
@@ -236,10 +222,6 @@ typedef struct {
 rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
                              const rb_friction_options *opt, double *x, double *y,
                              rb_friction_info *info);
-
-/* "solved", "solved-to-rounding" (above tol, at or below the floor), or
- * rb_status_text(s). */
-const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info);
 
 RB_PUBLIC_END
 

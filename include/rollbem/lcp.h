@@ -55,8 +55,8 @@ typedef struct {
     const int *basis;      /* n: basic variable of each row, after the pivot; NULL for bimatrix
                               games; borrowed, like all arrays of this struct */
     const double *value;   /* n: the value of each basic variable */
-    const int *nonbasis;   /* n + 1: variable of each column; NULL from rb_lcp_mixed, which
-                              has no tableau */
+    const int *nonbasis;   /* n + 1: variable of each column; NULL from "lemke-sparse",
+                              which has no tableau */
     const double *tableau; /* n x (n + 2) column-major after the pivot: basic = last
                               column + columns times nonbasic; NULL unless
                               options.trace_tableau */
@@ -69,9 +69,9 @@ typedef struct {
     double seconds;      /* time limit; 0: none */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
-    const double *start; /* newton and mixed, n: the z of a similar problem; z_i is basic at the
-                            start if start_i lies between its bounds.  NULL: newton starts with the
-                            z_i of q_i < 0 basic, mixed with none; borrowed */
+    const double *start; /* "newton" and "lemke-sparse", n: the z of a similar problem; z_i is basic
+                            at the start if start_i lies between its bounds.  NULL: newton starts
+                            with the z_i of q_i < 0 basic, lemke-sparse with none; borrowed */
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
@@ -85,7 +85,8 @@ typedef struct {
     const char *solver; /* the solver that found z: static text, NULL if no solver ran */
     int iters;          /* pivots; newton: linear systems; auto: sum over all methods */
     double res;         /* max |min(z, Mz + q)|, recomputed from z alone */
-    double scaled;      /* rb_lcp_scaled_residual; decides whether the problem is solved */
+    double scaled;      /* max of |min(z_i, w_i)| / (|M| |z| + |q|)_i of the equilibrated
+                           problem; decides whether it is solved */
     int row;            /* the row of `scaled`; -1: none */
     int ray_variable;   /* RB_RAY: the entering variable that no row blocks; else -1 */
     int label;          /* games: the strategy with which the path begins; else -1 */
@@ -114,20 +115,9 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt, double *z,
                         rb_lcp_info *info);
 
-/* Lemke's method with a sparse LU factorisation, for the mixed problem.  Ties are broken
- * by a generic perturbation, with RB_LCP_FIRST_INDEX by the row number; trace_tableau has
- * no effect.  Variables without bounds are basic from the beginning.  If their matrix is
- * singular, or the path does not lead to a solution, a second path begins in which each
- * of them is a difference of two; the second one of the k-th split variable has number n
- * + k in the trace, whose n is then larger.  With
- * opt->start the path begins at the basis of that point; if it does not lead to a
- * solution, a second path begins at the bounds. Statuses as rb_lcp_lemke, and
- * RB_SINGULAR: a basis is singular up to rounding; RB_EINVAL: crossed bounds, too. */
-rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
-                       rb_lcp_info *info);
-
-/* Solves with the named solver; NULL: "auto", a portfolio of methods.  "auto" chooses a
- * first method from the structure of M; if it does not finish soon, all methods continue
+/* Solves with the named solver: "lemke"; "lemke-sparse", Lemke's method with a sparse LU
+ * factorisation, for bounds, too; "newton"; NULL or "auto": a portfolio of methods.  "auto" chooses
+ * a first method from the structure of M; if it does not finish soon, all methods continue
  * in turns.  info->solver names the method that found z, info->iters is the sum over all
  * methods, and max_iters limits each of them.  Rows that are dominated by their diagonal are
  * solved by sweeps (info->solver "gauss-seidel"), problems with bounds by newton as long as it

@@ -5,6 +5,14 @@
 
 #include "rollbem/base.h"
 
+/* Behind a declaration: argument f is a format of printf, those from number a on are what it
+ * formats. */
+#ifdef __GNUC__
+#define RB_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#else
+#define RB_PRINTF(f, a)
+#endif
+
 /* Writes the formatted line into why (unless it is NULL) and returns s.  An error return
  * is then one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
 rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...) RB_PRINTF(3, 4);
@@ -29,6 +37,12 @@ static inline const char *rb_plural(long long n)
 {
     return n == 1 ? "" : "s";
 }
+
+/* One allowed word of an option, and the value (of an enum) that the word stands for. */
+typedef struct {
+    const char *name;
+    int value;
+} rb_choice;
 
 /* Copies the next word of a list with commas, as far as it fits.  Returns the rest of the list;
  * NULL: it is empty, or NULL. */

@@ -23,6 +23,9 @@ double rb_bem_system_rcond(const rb_bem_system *system);
 
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
+/* What all functions ask of a mesh (rb_bem_mesh). */
+rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why);
+
 /* Length of element j. */
 double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j);
 
@@ -104,12 +107,62 @@ double rb_bem_memory_of_datum(double datum_over_length);
  * displacement is asinh(d/(2|x|)). */
 double rb_bem_memory_of_strip(double width_over_length);
 
+/* A body whose influence function depends on the distance alone (a wheel's does not).  It
+ * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
+ * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
+ * pointers are borrowed. */
+typedef struct {
+    rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
+                                 (instantaneous) constants */
+    double datum;             /* where along the half-plane or elastic base a load moves nothing */
+    double datum_tangential;  /* the same for tangential displacement; only for a
+                                 homogeneous half-plane; 0: datum */
+    double datum_memory;      /* of a homogeneous half-plane in steady rolling: sum f_k G(d/L_k), by
+                                 which the memory of loads that have passed differs from that of
+                                 ln(d/|x|) (V2), see rb_bem_memory_of_datum; 0 for a wheel's */
+    int terms;                /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
+                                 exp(-t/tau_k)) */
+    const double *ratio;      /* terms: f_k >= 0 */
+    const double *length;     /* terms: rolling speed times tau_k [length], >= 0 */
+    double thickness;         /* of the layer; 0: half-plane */
+    int elastic_base;         /* of the layer; 0: rigid */
+    rb_bem_material base;
+    int smooth_base;           /* of one elastic layer: it slides on its base without friction and
+                                  does not leave it (L9); its displacement along the surface has no
+                                  datum */
+    const rb_bem_stack *stack; /* of several elastic layers, the first of which is that of
+                                  `material` and `thickness`; NULL: one */
+    double period; /* of tractions that repeat themselves along an elastic half-plane [length]: its
+                      displacement has the mean 0 and no datum (P1); 0: none */
+} rb_bem_surface;
+
+/* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from
+ * the loaded point. */
+rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
+
+/* As rb_bem_flexibility_halfplane, of any such body. */
+rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,
+                                     rb_bem_flexibility *f, rb_message *why);
+
 /* As rb_bem_flexibility_surface for equal elements, as a Toeplitz operator: products by Fourier
  * transforms take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
  * operators (rb_bem_flexibility_pair) is a Toeplitz operator.  Only one thread at a time
  * may call apply.  RB_EINVAL: as there, or elements of different lengths. */
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
                                       rb_bem_flexibility *f, rb_message *why);
+
+/* A full disc, fixed at its centre. */
+typedef struct {
+    double radius;
+    rb_bem_material material;
+} rb_bem_disc;
+
+/* Exact solution of an elastic disc whose rim carries uniform tractions (p_r, p_t) on an
+ * arc of angular width h, 0 < h < 2 pi: displacement of the rim (u_r outwards, u_t
+ * counter-clockwise) at `angle`, counter-clockwise from the middle of the arc, up to a
+ * rigid motion.  A force and a couple at the centre balance the resultant.  response
+ * [length/stress]: 2 x 2 column-major, rows (u_r, u_t), columns (p_r, p_t). */
+rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, double response[4]);
 
 /* The flexibility of a disc in closed form.  Only the contact, at the lowest point, has
  * elements (equal arcs; ends as in rb_bem_mesh_cylinder).  A force and a moment at the
@@ -138,6 +191,25 @@ typedef struct {
 } rb_bem_fading;
 /* time: relaxation time; step > 0, in the same unit. */
 rb_bem_fading rb_bem_fading_over(double time, double step);
+
+/* A wheel with rotational symmetry: a ring of one material, or a cover on a core that is
+ * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
+ * viscoelastic.  Pointers are borrowed. */
+typedef struct {
+    double radius, inner;     /* outer and inner radius of the material, bonded at `inner` */
+    rb_bem_material material; /* its glassy (instantaneous) constants */
+    int terms;
+    const double *ratio, *length;
+    double hub; /* radius of the rigid hub below an elastic core; 0: rigid at `inner` */
+    rb_bem_material core;
+} rb_bem_wheel;
+
+/* The flexibility of the glassy wheel by its waves around the circumference (B12): no
+ * boundary elements outside the contact, n_c^2 work.  ends as in rb_bem_mesh_cylinder;
+ * the elements are arcs, f->h holds their chords.  RB_EINVAL: invalid radii, materials or
+ * ends; RB_SINGULAR: the core hardly holds the cover; RB_ENOMEM. */
+rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
+                                   rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
 
 /* As rb_bem_flexibility_wheel, by products of Fourier transforms, n log n work, to 1e-10 of the
  * largest displacement.  apply serves one thread at a time.  A cover that is very thin against its

@@ -230,3 +230,10 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_s
     }
     return rb_bem_flexibility_end("half-plane", n_c, s, f, why);
 }
+
+rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends, rb_bem_material material,
+                                       double datum, rb_bem_flexibility *f, rb_message *why)
+{
+    const rb_bem_surface body = rb_bem_halfplane(material, datum);
+    return rb_bem_flexibility_surface(n_c, ends, &body, f, why);
+}

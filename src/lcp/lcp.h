@@ -12,6 +12,18 @@ typedef struct {
 } rb_lcp_solver;
 const rb_lcp_solver *rb_lcp_solvers(int *count);
 
+/* Lemke's method with a sparse LU factorisation, for the mixed problem.  Ties are broken
+ * by a generic perturbation, with RB_LCP_FIRST_INDEX by the row number; trace_tableau has
+ * no effect.  Variables without bounds are basic from the beginning.  If their matrix is
+ * singular, or the path does not lead to a solution, a second path begins in which each
+ * of them is a difference of two; the second one of the k-th split variable has number n
+ * + k in the trace, whose n is then larger.  With
+ * opt->start the path begins at the basis of that point; if it does not lead to a
+ * solution, a second path begins at the bounds. Statuses as rb_lcp_lemke, and
+ * RB_SINGULAR: a basis is singular up to rounding; RB_EINVAL: crossed bounds, too. */
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info);
+
 /* regret: m + n values >= 0, what each strategy pays less than the best reply to the
  * other player's mixed strategy; payoff: the payoffs of the best replies.  Returns max
  * min(probability, regret). */

@@ -1,7 +1,7 @@
 /* Solvers on any finite numbers: what they call solved, is solved. */
 #include "fuzz.h"
 #include "rollbem/friction.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 #include "rollbem/sparse.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
 #define ROLLBEM_SRC_ANALYSIS_PRONY_PRONY_H
 
 #include "base/base.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 /* Measured at one temperature; borrowed. */
 typedef struct {

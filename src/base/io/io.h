@@ -57,6 +57,31 @@ rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message 
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
+/* A row per line, of numbers between blanks, tabs or commas, or as spreadsheets write them:
+ * between semicolons, with decimal commas where semicolons, tabs or blanks separate the
+ * numbers, in double quotes, with a byte-order mark, in UTF-16.  # starts a comment.  A
+ * first line of words names the columns, and a second one may have their units; or the last
+ * comment before the first row names them, if it has as many words.  A cell of a named
+ * column that is empty or "NaN" has the number NAN. */
+typedef struct {
+    int rows, columns;
+    char **name;          /* columns; NULL: the file does not name them; owned, like all arrays
+                             here */
+    int named_by_comment; /* 1: name is the last comment, which may be any comment */
+    double *x;            /* rows x columns, column-major */
+    char **word;          /* the same of cells that are words, whose number is NAN; NULL where a
+                             cell is a number; NULL: all are */
+    int *line;            /* rows: line number of each row in the file */
+} rb_io_table;
+
+/* RB_ENOENT; RB_EFORMAT: the count of numbers differs from the first row or from the
+ * names, something is not a number, decimals have commas and points, a name occurs twice,
+ * or there is no row; why names file, line and what was expected.  RB_ENOMEM.  t is
+ * overwritten and is empty after an error. */
+rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
+
+void rb_io_table_free(rb_io_table *t);
+
 /* As rb_io_table_read, of a text that has already been read from path; the function changes the
  * text. */
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why);
@@ -114,6 +139,23 @@ rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_mes
 rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why);
 
 /* ---- Linear complementarity problems of any kind ----------------------------------- */
+
+/* n numbers in plain text or a Matrix Market matrix of n by 1; `what` names them in
+ * messages.  x: owned by the caller, NULL after a failure.  Errors as above. */
+rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x, rb_message *why);
+
+/* The same for bounds: inf and -inf are numbers, too. */
+rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x, rb_message *why);
+
+/* A bimatrix game: m, n, the m rows of A, the m rows of B.  # starts a comment. */
+typedef struct {
+    int m, n;
+    double *A, *B; /* m x n column-major: payoffs of the row and of the column player */
+} rb_io_bimatrix;
+
+/* As rb_io_lcp_read. */
+rb_status rb_io_bimatrix_read(const char *path, rb_io_bimatrix *p, rb_message *why);
+void rb_io_bimatrix_free(rb_io_bimatrix *p);
 
 /* local: u = W r + q.  global: M v = H r + f, u = H' v + w; in the file f is named q and w
  * is named b.  [N, T] or [N, T1, T2] per contact. */

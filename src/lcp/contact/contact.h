@@ -7,6 +7,34 @@
 
 /* ---- The operator: displacements due to tractions ---------------------------------- */
 
+/* There are two kinds: operators with matrices, and operators with products only, for Newton's
+ * method with GMRES. */
+
+/* Functions of an operator with products, for a line of equal elements. */
+typedef struct {
+    /* r: 2n; *gap, *slip: n each, owned by the context and valid until its next
+     * product. */
+    void (*apply)(void *context, const double *r, const double **gap, const double **slip);
+    /* Approximate inverse of F_NN (tangential 0) or A F_TT (1); line: n, overwritten. */
+    void (*precondition)(void *context, int tangential, double *line);
+    void (*free)(void *context);
+    void *context;
+    /* Approximate inverse of 1 + hardening F_TT, hardening > 0; NULL: not available. */
+    void (*precondition_yielding)(void *context, double hardening, double *line);
+} rb_contact_products;
+
+/* Takes ownership of the context, also on failure.  RB_ENOMEM. */
+rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
+                                       rb_contact_operator **op);
+
+/* The matrices of an operator; F is NULL if it has none. */
+typedef struct {
+    const double *F; /* borrowed, as S */
+    int ldf;
+    const double *S; /* ld = n */
+} rb_contact_matrix;
+rb_contact_matrix rb_contact_operator_matrix(const rb_contact_operator *op);
+
 /* Adds products of the same operator to `dense`, so that large systems are solved with
  * GMRES; if GMRES does not converge, the matrices are used.  `dense` takes ownership of
  * the products and frees earlier ones.  NULL: matrices only. */
@@ -56,15 +84,6 @@ void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic
 double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);
 
 /* ---- The state: unknowns of a problem ---------------------------------------------- */
-
-typedef enum {
-    RB_ZONE_SEPARATED = 0,
-    RB_ZONE_STICK = 1,
-    RB_ZONE_SLIP_NEGATIVE = 2,  /* r_T = -mu r_N: A's surface slides towards +x */
-    RB_ZONE_SLIP_POSITIVE = 3,  /* r_T = +mu r_N */
-    RB_ZONE_YIELD_NEGATIVE = 4, /* r_T = -(yield + hardening u): the layer yields */
-    RB_ZONE_YIELD_POSITIVE = 5  /* r_T = +(yield + hardening u) */
-} rb_contact_zone;
 
 /* What a warm start needs of another state with as many elements: zones, tractions, approach and
  * creepage. */

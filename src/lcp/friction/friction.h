@@ -13,6 +13,21 @@
  * sizes, mu < 0, NaN or infinity, or K not symmetric; why names the place. */
 rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_message *why);
 
+/* Properties of a problem that help to choose a solver. */
+typedef struct {
+    int rank;           /* of H (global) or W (local) */
+    int hyperstaticity; /* d n_c - rank */
+    int nullity;        /* of K (global form); 0 otherwise */
+    double asymmetry;   /* max |W - W'| / max |W|; 0 for the global form */
+    int indefinite;     /* 1: the symmetric part of W has a negative eigenvalue below
+                           -1e-10 of the largest entry; 0 for the global form */
+} rb_friction_facts;
+
+/* with_rank 0: ranks and nullity are not computed (they need a QR factorisation) and are
+ * 0. */
+rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
+                              rb_friction_facts *facts);
+
 /* Eliminates bilateral constraints: the new problem has none, and the same r and u.
  * Global: K v = H r + G l + f, u = H' v + w, G' v + b = 0 (G: n x c, b: c); n - rank(G)
  * unknowns v remain.  Local: u = W r + V l + q, V' r + R l + s = 0 (V: m x c, R: c x c,
@@ -59,16 +74,19 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_fricti
 
 /* ---- Solvers ----------------------------------------------------------------------- */
 
-typedef enum {
-    RB_FRICTION_NEEDS_W = 1, /* refuses the global form with singular K */
-    RB_FRICTION_ONLY_2D = 2
-} rb_friction_needs;
-
 /* The solver of this name, or NULL. */
 const rb_friction_solver *rb_friction_solver_named(const char *name);
 
 /* The residual in the chosen measure. */
 double rb_friction_deciding(const rb_friction_info *info);
+
+/* Returns 1 and writes a note if the problem is solved in the scaled measure while (13)
+ * is above the tolerance and the floor. */
+int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note);
+
+/* "solved", "solved-to-rounding" (above tol, at or below the floor), or
+ * rb_status_text(s). */
+const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info);
 
 /* The solver of this name for rolling contact (rb_rolling_case, rb_case_use_cone_solvers);
  * borrows the name. */

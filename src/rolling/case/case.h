@@ -52,6 +52,10 @@ int rb_option_number(const char *text, double *value);
 
 /* ---- Cases ----------------------------------------------------------------------- */
 
+/* Copies a case.  The copy borrows files and texts of c, so free it before c.  NULL: no
+ * memory. */
+rb_case *rb_case_copy(const rb_case *c);
+
 /* 0: every case of that purpose refuses the option. */
 int rb_case_takes(rb_case_purpose purpose, const char *option);
 
