@@ -5,7 +5,7 @@
 
 #include "rollbem/api.h"
 #include "rollbem/bem.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 #include "base/base.h"
 
 #include <math.h>

@@ -146,6 +146,47 @@ static int lines_of(const char *text)
     return lines;
 }
 
+/* Every rb_... and RB_... of a text. */
+static void add_words(const char *text, names *all)
+{
+    char word[WORD];
+    for (const char *at = text; *at; at++) {
+        size_t length = 0;
+        if ((at > text && (isalnum((unsigned char)at[-1]) || at[-1] == '_')) ||
+            (strncmp(at, "rb_", 3) != 0 && strncmp(at, "RB_", 3) != 0))
+            continue;
+        while (isalnum((unsigned char)at[length]) || at[length] == '_')
+            length++;
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        add(all, word);
+    }
+}
+
+/* Who has only the installed headers finds there whatever their comments name. */
+TEST(comments_name_what_is_declared)
+{
+    static names in_code, in_all;
+    char path[300];
+    int strange = 0;
+
+    DIR *folder = NOT_NULL(opendir("include/rollbem"));
+    for (const struct dirent *e = readdir(folder); e; e = readdir(folder)) {
+        snprintf(path, sizeof path, "include/rollbem/%.200s", e->d_name);
+        if (!strstr(e->d_name, ".h"))
+            continue;
+        add_words(file_text(path), &in_all);
+        add_words(header_text(path), &in_code);
+    }
+    closedir(folder);
+    assert_in_range(in_code.n, 300, MOST - 1);
+    for (int k = 0; k < in_all.n; k++)
+        if (!has(&in_code, in_all.name[k])) {
+            print_error("%s is named and not declared\n", in_all.name[k]);
+            strange++;
+        }
+    assert_int_equal(strange, 0);
+}
+
 /* What docs/library.md says of them: the functions of each header, their sum, the lines. */
 TEST(library_md_counts_the_headers)
 {
@@ -173,6 +214,7 @@ TEST(library_md_counts_the_headers)
     }
     assert_int_equal(rows, 10);
     assert_int_equal(sum, said_sum);
+    assert_true(said_sum <= 160 && said_lines <= 2000);
 
     DIR *folder = NOT_NULL(opendir("include/rollbem"));
     for (const struct dirent *e = readdir(folder); e; e = readdir(folder)) {

@@ -234,8 +234,9 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth); /* INFINITY: of the 
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
 /* Computes the wear of a handle for "wear" like `rollbem wear`: law "archard" or
  * "dissipation", coefficient K [1/stress], share of B.  A slides by `slide` [length]; if that is
- * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps; quarter:
- * increments per quarter of a cycle of fretting (rollbem/rolling.h). */
+ * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps, each of
+ * which is implicit and stable for any length; quarter: increments per quarter of a cycle of
+ * fretting. */
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, double slide,
                 double cycles, int steps, int quarter);
 /* Derivatives of every number and column of the solution with respect to every number of
@@ -309,8 +310,8 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
 int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const double *lower,
                    const double *upper, double seconds);
 /* An equilibrium of a game: payoffs A of the row player and B of the column player, m x n, column
- * by column; label as of rb_lcp_bimatrix, -1: any.  all 1: all extreme equilibria, for m + n
- * up to 22.  seconds: time limit, 0: none. */
+ * by column; label: the strategy dropped first, 0 ... m + n - 1, rows first; -1: any.  all 1: all
+ * extreme equilibria, for m + n up to 22.  seconds: time limit, 0: none. */
 int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all,
                 int max_pivots, double seconds);
 /* yes 1: the calls of this handle above and below also prove what they find (docs/proof.md), as

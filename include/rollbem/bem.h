@@ -10,9 +10,6 @@ RB_PUBLIC_BEGIN
 
 /* ---- Elasticity ------------------------------------------------------------------ */
 
-/* Long bodies, loads per unit length, or thin discs, loads per unit thickness. */
-typedef enum { RB_PLANE_STRAIN, RB_PLANE_STRESS } rb_bem_plane;
-
 /* An isotropic material, with the constants that enter the formulas of plane strain. */
 typedef struct {
     double shear;   /* G > 0 [stress] */
@@ -153,12 +150,6 @@ struct rb_bem_flexibility {
 /* Condenses a cylinder's system to its contact: one solve with 2n right-hand sides. */
 rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
                           rb_bem_flexibility *f, rb_message *why);
-
-/* Bonded layers from the surface down; borrowed. */
-typedef struct {
-    int n;                                     /* at least 2 */
-    const double *thickness, *young, *poisson; /* n each */
-} rb_bem_stack;
 
 /* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
 typedef struct {

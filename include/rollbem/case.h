@@ -17,8 +17,7 @@
 #define ROLLBEM_CASE_H
 
 #include "rollbem/base.h"
-#include "rollbem/io.h"
-#include "rollbem/options.h"
+#include "rollbem/rolling.h"
 
 RB_PUBLIC_BEGIN
 
@@ -58,13 +57,15 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
  * RB_ENOMEM. */
 rb_status rb_case_read(rb_case *c, const char *path, rb_message *why);
 
-/* Computes rb_resolved_case from the given values: refuses contradictions, fills in body
- * B and the mesh, reads the files of gap and history, and checks the result.  Call it
- * again after every change. */
+/* Resolves the given values: refuses contradictions, fills in body B and the mesh, reads the
+ * files of gap and history, and checks the result.  Call it again after every change. */
 rb_status rb_case_resolve(rb_case *c, rb_message *why);
 
-/* The resolved values; borrowed, valid until c changes. */
+/* The resolved values, in mm, N, MPa; opaque.  Borrowed, valid until c changes. */
+typedef struct rb_resolved_case rb_resolved_case;
 const rb_resolved_case *rb_case_resolved(const rb_case *c);
+/* The case among them, for the steps of rollbem/rolling.h; borrowed likewise. */
+const rb_rolling_case *rb_case_rolling(const rb_case *c);
 
 /* ---- Solving ----------------------------------------------------------------------- */
 

@@ -203,26 +203,6 @@ rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *solve
                                    const rb_friction_solution *solution, rb_friction_info *info);
 void rb_friction_handle_free(rb_friction_handle *handle);
 
-/* ---- The canonical SOCLCP, *Kanno* (1) --------------------------------------------- */
-
-/* y = M x + q, x and y in a product of cones, x'y = 0.  Borrowed. */
-typedef struct {
-    int n;           /* sum of the sizes */
-    const double *M; /* n x n column-major */
-    const double *q; /* n */
-    int cones;
-    const int *size; /* one per cone: size k > 1 is the Lorentz cone {x_0 >= ||x_1 ...||},
-                        size 1 a half-line */
-} rb_friction_soclcp_problem;
-
-/* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
- * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x; info->scaled,
- * which decides: the same after y and q are divided by the mean of the diagonal of M,
- * which gives them the unit of x.  info may be NULL. */
-rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
-                             const rb_friction_options *opt, double *x, double *y,
-                             rb_friction_info *info);
-
 RB_PUBLIC_END
 
 #endif

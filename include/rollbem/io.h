@@ -6,8 +6,6 @@
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
-#include <stdio.h>
-
 RB_PUBLIC_BEGIN
 
 /* ---- Matrices ---------------------------------------------------------------------- */

@@ -10,7 +10,6 @@
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
-#include "rollbem/options.h"
 #include "rollbem/rolling.h"
 #include "rollbem/sparse.h"
 

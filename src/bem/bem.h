@@ -9,6 +9,9 @@
 
 /* ---- Elasticity ------------------------------------------------------------------ */
 
+/* Long bodies, loads per unit length, or thin discs, loads per unit thickness. */
+typedef enum { RB_PLANE_STRAIN, RB_PLANE_STRESS } rb_bem_plane;
+
 /* 1: 1 - 2 nu is below 1e-9: then what is left of the term that the pressure of a hub works on
  * drowns in the rounding of the others. */
 int rb_bem_is_incompressible(rb_bem_material material);
@@ -106,6 +109,12 @@ double rb_bem_memory_of_datum(double datum_over_length);
 /* The same mean for a strip of width d of a half-space that rests far away (CONTACT), whose
  * displacement is asinh(d/(2|x|)). */
 double rb_bem_memory_of_strip(double width_over_length);
+
+/* Bonded layers from the surface down; borrowed. */
+typedef struct {
+    int n;                                     /* at least 2 */
+    const double *thickness, *young, *poisson; /* n each */
+} rb_bem_stack;
 
 /* A body whose influence function depends on the distance alone (a wheel's does not).  It
  * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling

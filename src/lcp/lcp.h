@@ -24,6 +24,35 @@ const rb_lcp_solver *rb_lcp_solvers(int *count);
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info);
 
+/* A bimatrix game.  The row player chooses among m strategies with probabilities x and
+ * receives x'A y; the column player chooses among n strategies with probabilities y and
+ * receives x'B y. */
+typedef struct {
+    int m, n;
+    const double *A, *B; /* m x n, column-major */
+    int ld;              /* >= m, of both */
+} rb_lcp_game;
+
+/* An equilibrium of a game by the method of Lemke and Howson with a lexicographic rule.
+ * label, 0 ... m + n - 1: the strategy dropped first (rows, then columns); other labels
+ * may lead to other equilibria.  -1: the paths of up to 16 labels in rounds, with limits
+ * that double from round to round, until one has ended (info->label); paths can be longer
+ * than 1.6^m.  It uses the options max_iters (0: as many as take about half a minute),
+ * seconds and trace; in the trace z_k is the probability and w_k the regret of strategy
+ * k.  z = (x, y): m + n, written.  RB_OK, RB_MAXITER, RB_TIME_LIMIT, RB_INACCURATE,
+ * RB_NUMERICAL: rounding errors have ended the path (every game has an equilibrium);
+ * RB_EINVAL, RB_ENOMEM. */
+rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt, double *z,
+                          rb_lcp_info *info);
+
+/* All extreme equilibria: pairs of vertices of the two polytopes of best replies; z = (x, y).
+ * All others are mixtures: in a maximal set, whose equilibria are all pairs of some x and
+ * some y, any mixture of these x with any mixture of these y is one.  `bases` counts bases
+ * of the polytopes, sets is 0 where there are more than 1000.  m + n is at most 22.
+ * seconds and statuses as rb_lcp_enumerate. */
+rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, double seconds, rb_lcp_solutions *all,
+                                    rb_message *why);
+
 /* regret: m + n values >= 0, what each strategy pays less than the best reply to the
  * other player's mixed strategy; payoff: the payoffs of the best replies.  Returns max
  * min(probability, regret). */

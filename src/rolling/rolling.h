@@ -15,6 +15,7 @@
 #include "rolling/solve/notes.h"
 #include "rolling/solve/stress.h"
 #include "rolling/history/history.h"
+#include "rolling/history/wear.h"
 #include "rolling/study/study.h"
 
 #endif

@@ -1,4 +1,5 @@
 /* From case to solution in one call, whatever the case is: at rest, steady, or step by step. */
+#include "rolling/history/history.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/model.h"

@@ -2,7 +2,7 @@
 #include "fuzz.h"
 #include "base/io/io.h"
 #include "lcp/friction/friction.h"
-#include "rollbem/options.h"
+#include "rolling/case/options.h"
 #include "rolling/case/case.h"
 
 #include <math.h>

@@ -7,6 +7,8 @@
 #include "base/units.h"
 #include "rollbem/io.h"
 
+#include <stdio.h>
+
 /* ---- Output files, written completely or not at all ----------------------------- */
 
 /* Output goes to an unnamed file in the folder of the target; commit gives it the

@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_BODY_BODY_H
 
 #include "bem/bem.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Properties of a body, as bits. */
 typedef enum {

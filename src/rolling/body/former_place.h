@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_BODY_FORMER_PLACE_H
 #define ROLLBEM_ROLLING_BODY_FORMER_PLACE_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Tangential displacement at the distance `step` upstream of each midpoint: w_T = w0_T +
  * W_T (p, q).  Equal elements, half-planes and wheels. */

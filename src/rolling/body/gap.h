@@ -2,9 +2,21 @@
 #ifndef ROLLBEM_ROLLING_BODY_GAP_H
 #define ROLLBEM_ROLLING_BODY_GAP_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* ---- Gaps by tables ------------------------------------------------------------- */
+
+/* A measured gap g_0(x) [length]: n points with increasing x, interpolated by cubic
+ * splines between the corners of the data; the pressure follows the curvature of the gap,
+ * and that of a spline is continuous.  noise 0: the curve passes through the points.  noise > 0:
+ * standard deviation of the noise of the points [length]; the spline is the smoothest curve whose
+ * root mean square distance to the points is that small.  RB_EINVAL: too few points, x
+ * does not increase, or the smallest gap is at an end, so that the table does not enclose
+ * a contact; why names the row.  RB_ENOMEM. */
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why);
+
+void rb_rolling_profile_free(rb_rolling_profile *profile);
 
 /* As rb_rolling_profile_create, but one cubic spline without corners, which changes smoothly with
  * its points: of a gap that is searched for. */

@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_CASE_DERIVED_H
 
 #include "bem/bem.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* The most of each that a case may ask for: elements of the contact and on the circle outside
  * it, steps of a history, points of a curve. */
@@ -58,8 +58,6 @@ int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mes
 
 /* ---- Lengths and loads ---------------------------------------------------------- */
 
-/* What follows from a case. */
-rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
 /* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width.  INFINITY: the
  * gap is a table that has no radius, and none was given; what refers to one is NAN then. */
 double rb_rolling_radius(const rb_rolling_case *rc);

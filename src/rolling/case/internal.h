@@ -3,6 +3,7 @@
 #define ROLLBEM_ROLLING_CASE_INTERNAL_H
 
 #include "rolling/case/derived.h"
+#include "rolling/history/history.h"
 
 /* 1 if the boundary of wheels outside the contact is finer than needed for finding the
  * contact; the second function sets the plan to the default boundary. */

@@ -1097,3 +1097,8 @@ const rb_resolved_case *rb_case_resolved(const rb_case *c)
 {
     return &c->resolved;
 }
+
+const rb_rolling_case *rb_case_rolling(const rb_case *c)
+{
+    return &c->resolved.rc;
+}

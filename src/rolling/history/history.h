@@ -2,7 +2,46 @@
 #ifndef ROLLBEM_ROLLING_HISTORY_HISTORY_H
 #define ROLLBEM_ROLLING_HISTORY_HISTORY_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
+
+/* Prescribed quantities of a history, one row per time or distance.  A column replaces
+ * the value of the case; with NULL the value of the case applies.  Without distance the
+ * rows are increments of a static history.  With distance they are transient rolling:
+ * rows at distance 0 are static increments; between the others load, approach and force
+ * are linear, and each step has the mean creepage.  mu applies to the whole contact and
+ * is linear between rows, too; in a friction law that depends on the state it replaces
+ * the mu of the formula; it cannot be combined with a table over x.  Distances must not
+ * decrease; their unit is Hertz's half-width of the largest load of the program (or of
+ * the static load at its largest approach). Static contact of viscoelastic bodies needs
+ * the time [s] of each row, which starts with 0 and must not decrease: between two rows
+ * everything is linear in time; two rows at the same time are a jump. */
+typedef struct {
+    int n;
+    const double *distance, *time;
+    const double *mu;
+    const double *load, *approach;                                   /* at most one */
+    const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
+    const double *bulk_stress, *bulk_stress_b, *tilt;
+} rb_rolling_program; /* all borrowed */
+
+void rb_rolling_history_free(rb_rolling_history *history);
+
+typedef struct {
+    rb_rolling_step *step; /* NULL: not called */
+    void *context;
+} rb_rolling_observer;
+
+/* Computes the steps of the program (NULL: the values of the case; the bodies are pressed
+ * at rest in its increments, then rolled over rc->distance).  A transient has rc->steps
+ * steps of equal length, or, if that is 0, so many that no step is longer than an
+ * element; the last step ends at the last row.  If the contact becomes wider than an
+ * automatic zone, the run starts again with step 0 on a wider zone.  observer may be
+ * NULL.  model and history are overwritten; they hold the finished steps also on
+ * RB_INTERRUPTED and other positive statuses.  model->rc is the case of the last step.
+ * Free both in any case. */
+rb_status rb_rolling_history_run(const rb_rolling_case *rc, const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer, rb_rolling_model *model,
+                                 rb_rolling_history *history, rb_message *why);
 
 /* The columns of a program and their names in tables. */
 typedef struct {
@@ -18,6 +57,10 @@ typedef struct {
 
 enum { RB_ROLLING_PROGRAM_COLUMNS = 13 };
 extern const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
+
+/* Columns of a program that are columns of its history, too. */
+enum { RB_VARIES_MU = 1, RB_VARIES_BULK = 2, RB_VARIES_BULK_B = 4, RB_VARIES_TILT = 8 };
+unsigned rb_rolling_program_varies(const rb_rolling_program *program);
 
 /* The case that results of the program refer to; if the program has a column mu, its mu
  * is the largest value. */

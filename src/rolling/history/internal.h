@@ -3,6 +3,8 @@
 #define ROLLBEM_HISTORY_INTERNAL_H
 
 #include "rolling/body/former_place.h"
+#include "rolling/history/history.h"
+#include "rolling/history/wear.h"
 #include "rolling/solve/cycle.h"
 #include "rolling/solve/heat.h"
 

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_CYCLE_H
 #define ROLLBEM_ROLLING_SOLVE_CYCLE_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Of each element: work of friction, slip in contact so far, the least and the largest of it,
  * largest friction. */

@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_SOLVE_FORMULATION_H
 
 #include "lcp/contact/contact.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* ---- formulation.c -------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_SOLVE_GIVEN_TRACTIONS_H
 
 #include "bem/bem.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Tractions on A that are given: linear between nodes, two at one place are a jump. */
 typedef struct rb_rolling_given {

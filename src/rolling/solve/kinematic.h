@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_KINEMATIC_H
 #define ROLLBEM_ROLLING_SOLVE_KINEMATIC_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* (A w)_i = sum over k of stencil_k w_{i-1+k}, w the tangential displacement of the n
  * elements and of one downstream and two upstream of them. */

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_LAW_H
 #define ROLLBEM_ROLLING_SOLVE_LAW_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 /* Value of the table at x: linear between its points, constant beyond them. */

@@ -5,6 +5,31 @@
 #include "lcp/contact/contact.h"
 #include "rolling/body/gap.h"
 
+/* Private members of rb_rolling_model; what pointers point to is owned:
+ *
+ * varies                in a history: columns of the program, rb_rolling_program_varies
+ * first_from, first_to  ends of the equal elements with which the search for the edges began; the
+ *                       same value twice: none [length]
+ * follows               1: friction and creepage are, until the next solve, those of the case on
+ *                       other elements
+ * same_bodies           1: `bodies` need not be built again for `rc` on the same mesh
+ * carried               state variables of the friction law and of the interface, n each:
+ *   temperature         of both surfaces after a rolled step; NULL: not computed
+ *   yielded             accumulated plastic slip of the interface before the last step, at the
+ *                       places where the particles were then [length]; NULL: zero
+ *   mu                  friction coefficients of the particles before the step; NULL: those at
+ *                       rest; borrowed, like heat
+ *   heat                of the earlier steps; NULL: none
+ * conduction            how heat warms these elements, kept from round to round of a friction law;
+ *                       NULL: not known yet
+ * cycle                 what fretting has done so far in the last cycle of its history; NULL: not
+ *                       asked for
+ * given                 tractions that were given instead of solved for; NULL: those of the state
+ * far                   what the rest of wheels adds, while only the edges of the contact are
+ *                       searched for; NULL: bodies have systems
+ * freely                solved free rolling of the same case, if it was computed on elements of its
+ *                       own; otherwise NULL */
+
 /* As rb_rolling_model_create, by another plan (NULL: that of the case), for a model of zeros, or
  * one that has solved a case which differs at most in friction, load, approach, shift, creepage or
  * force.  Its flexibility is used again if the equal elements have the same ends.  The
@@ -69,9 +94,6 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 
 /* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
-
-/* Edges of a patch that are only known to lie within one element. */
-enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };
 
 /* ---- Friction that depends on the state (F2, F3) -------------------------------- */
 

@@ -2,7 +2,18 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_NOTES_H
 #define ROLLBEM_ROLLING_SOLVE_NOTES_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
+
+/* Notes on results that must be read with care, one line each, every one of which the state
+ * as solved bears out (src/rolling/solve/notes.c). */
+enum { RB_ROLLING_NOTES = 55, RB_ROLLING_NOTE_LENGTH = 320 };
+
+/* The notes on all rows: how many have a note of each kind, the first of them from 0, and what it
+ * says of that one. */
+typedef struct {
+    int rows, count[RB_ROLLING_NOTES], first[RB_ROLLING_NOTES];
+    char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
+} rb_rolling_study_notes;
 
 typedef struct {
     int n;

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_PATCHES_H
 #define ROLLBEM_ROLLING_SOLVE_PATCHES_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* A patch: neighbouring elements first ... last in contact, and its edges. */
 typedef struct {

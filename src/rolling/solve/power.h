@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_POWER_H
 #define ROLLBEM_ROLLING_SOLVE_POWER_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
  * static. */

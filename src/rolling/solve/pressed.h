@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_PRESSED_H
 #define ROLLBEM_ROLLING_SOLVE_PRESSED_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* Finds the load under which the largest pressure of the solved case is that of the case, within
  * 1e-10; sets pressed_by and, of equal elements without one, zone.  RB_EINVAL: the gap has

@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_SOLVE_RESULTS_H
 
 #include "base/units.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 typedef enum {
     RB_RESULT_NUMBER,
@@ -103,10 +103,6 @@ extern const rb_rolling_result_table rb_rolling_result_tables[];
 
 /* The row with this name; NULL: there is none. */
 const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name);
-/* Columns of a program that are columns of its history, too. */
-enum { RB_VARIES_MU = 1, RB_VARIES_BULK = 2, RB_VARIES_BULK_B = 4, RB_VARIES_TILT = 8 };
-unsigned rb_rolling_program_varies(const rb_rolling_program *program);
-
 /* 1 if the case has this result.  varies: in a history with such columns. */
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, unsigned varies);
 /* 1 if the struct `owner` has this column. */
@@ -136,13 +132,9 @@ const rb_rolling_result *rb_rolling_study_column(int k);
 
 /* ---- Units ---------------------------------------------------------------------- */
 
-/* Converts from mm, N, MPa to other units; call it once only. */
-void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
-
 /* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells
  * the present units. */
 void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units);
 void rb_rolling_history_convert(rb_rolling_history *h, rb_units units);
-void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 
 #endif

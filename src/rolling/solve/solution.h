@@ -3,7 +3,7 @@
 #define ROLLBEM_ROLLING_SOLVE_SOLUTION_H
 
 #include "lcp/contact/contact.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* The same as rb_rolling_solve, but the model is kept for stresses or further solves;
  * free both in any case. */

@@ -78,6 +78,19 @@ typedef struct {
 rb_status rb_rolling_temperature_inside(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                         int of_b, int n, rb_rolling_stress *at, rb_message *why);
 
+/* Shakedown of A, a half-plane under repeated rolling (theory-bodies.md S1): the yield stress in
+ * shear k at which it just shakes down to elastic behaviour, the place that decides, and
+ * the residual stress along x that rolling leaves there. */
+typedef struct {
+    double shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
+    double x, y;
+    double residual; /* [stress] */
+} rb_rolling_shakedown;
+
+/* RB_EINVAL: a wheel, a layer; RB_NO_CONTACT, RB_ENOMEM. */
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                    rb_message *why);
+
 /* Computes shear_yield and x again from the stress at the depth y and the given residual
  * stress. */
 rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_SOLVE_ZONE_H
 #define ROLLBEM_ROLLING_SOLVE_ZONE_H
 
-#include "rollbem/rolling.h"
+#include "rolling/case/inputs.h"
 
 /* ---- zone.c --------------------------------------------------------------------- */
 

@@ -3,6 +3,8 @@
 #define ROLLBEM_ROLLING_STUDY_STUDY_H
 
 #include "base/units.h"
+#include "rolling/history/history.h"
+#include "rolling/history/wear.h"
 #include "rolling/solve/notes.h"
 
 /* ---- Several solutions (theory-rolling.md F5) ----------------------------------- */
@@ -27,6 +29,67 @@ void rb_rolling_solutions_free(rb_rolling_solutions *all);
 
 /* ---- Creep curves --------------------------------------------------------------- */
 
+/* The variable of a curve. */
+typedef enum {
+    RB_OVER_CREEP_RATIO,
+    RB_OVER_CREEP,
+    RB_OVER_SPEED /* viscoelastic bodies only */
+} rb_rolling_variable;
+
+typedef struct {
+    rb_rolling_variable over;
+    double from, to;
+    int points;
+    rb_units units; /* of what notes say; from and to are in mm */
+} rb_rolling_range;
+
+/* One entry per creepage or speed; owned. */
+typedef struct rb_rolling_curve {
+    int n;
+    double *creepage, *creep_ratio, *force_ratio;
+    double *tangential_load, *normal_load;
+    double *stick_ratio; /* stuck length / length in contact */
+    double *yield_ratio; /* the same of the interface that yields; NULL if it cannot */
+    double stick_step;   /* largest change of these ratios by one element */
+    double *dissipation; /* power per unit speed */
+    double *residual;
+    double *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
+    double *resistance_moment, *resistance_ratio, *hysteresis; /* as in rb_rolling_solution */
+    double *torque_a, *torque_b;                  /* likewise; torque_b: NULL if B is a plane */
+    double *max_temperature;                      /* NULL if the case has no heat conduction */
+    double *ellipse_force, *ellipse_force_kalker; /* as in rb_rolling_solution; NULL: none */
+    int *branch;   /* 1: computed in the direction from `from` to `to`, 2: in the opposite
+                      direction; NULL if friction does not depend on the state */
+    double *kappa; /* as in rb_rolling_solution; NULL likewise */
+    int rising;    /* number of points of branch 1, which come first */
+    int unsolved;  /* points without a solution: NAN but for what is varied and, if the search for
+                      one began, kappa of its end */
+    double free_creepage, half_width, seconds;
+    int iterations;
+    rb_rolling_solution last; /* solution at the last point, for notes, but with the largest kappa
+                                 and the smallest dissipation of all points; n = 0: none */
+    rb_rolling_study_notes notes;        /* on the points */
+    struct rb_rolling_curve *deviations; /* standard deviation of every entry that has
+                                            derivatives (rb_case_curve_solve); NULL: not
+                                            computed; owned */
+    rb_units units;                      /* of all values here */
+} rb_rolling_curve;
+
+void rb_rolling_curve_free(rb_rolling_curve *curve);
+/* From mm, N, MPa to other units; call it once only. */
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
+
+/* Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
+ * `to`, under the load or approach of rc; its given creepage or force is ignored.  All
+ * points use one mesh, one factorisation and warm starts; a fitted mesh is fitted again
+ * if an edge has moved by more than 1 %.  With RB_OVER_SPEED the points are equally
+ * spaced in the logarithm of the speed, creepage or force is that of rc, and every speed
+ * has its own mesh and flexibility.  If the friction law depends on the state, the curve
+ * is followed to the last creepage and back to the first, each point from the one before:
+ * 2 * points entries. */
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                 rb_rolling_curve *curve, rb_message *why);
+
 /* Sees the model at point k; its refusal ends the curve. */
 typedef rb_status rb_rolling_point(const rb_rolling_model *model, int k, void *context,
                                    rb_message *why);
@@ -36,6 +99,21 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_r
                                    rb_message *why);
 
 /* ---- Error bars (theory-solvers.md 5.1) ----------------------------------------- */
+
+/* Solves a case and estimates errors from the spread over n/2, 0.7 n and n contact
+ * elements, and from the change when wheels have half as many elements outside the
+ * contact.  On a positive status the solution holds the last iterate; free it in any
+ * case. */
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, rb_message *why);
+
+/* Refines contact and boundary until the estimates of P, Q, p0, half-width and creepage
+ * are at most `accuracy` relative.  *elements: number of contact elements used at the
+ * end; 0: nothing was solved.  With the best estimate: RB_INACCURATE if 6400 contact elements
+ * or 64 times the default boundary elements do not suffice, RB_ENOMEM if the memory does not. */
+rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
+                                       rb_rolling_solution *solution, rb_rolling_errors *errors,
+                                       int *elements, rb_message *why);
 
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
  * MPa.  stress, stress_b: its maxima in all of A and of B if error bars for them are wanted,
