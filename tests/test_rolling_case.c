@@ -528,6 +528,12 @@ TEST(transforms_are_for_many_elements_on_half_planes)
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.contact.solver = RB_SOLVER_NEWTON);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.contact.solver = RB_SOLVER_LEMKE);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.mesh = RB_MESH_ALIGNED);
+    const rb_rolling_mesh aligned = {.n = RB_ROLLING_TRANSFORMS_ALIGNED},
+                          shorter = {.n = aligned.n - 1};
+    HOLDS(rb_rolling_is_large(&rc, &aligned), 1, rc.mesh = RB_MESH_ALIGNED);
+    HOLDS(rb_rolling_is_large(&rc, &shorter), 0, rc.mesh = RB_MESH_ALIGNED);
+    HOLDS(rb_rolling_is_large(&rc, &aligned), 0, rc.mesh = RB_MESH_ALIGNED;
+          rc.formulation = RB_STATIC);
     const rb_rolling_mesh fitted = {.n = RB_ROLLING_TRANSFORMS_FITTED}, below = {.n = fitted.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &fitted), 1, rc.mesh = RB_MESH_FITTED);
     HOLDS(rb_rolling_is_large(&rc, &below), 0, rc.mesh = RB_MESH_FITTED);

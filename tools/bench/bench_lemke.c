@@ -397,11 +397,6 @@ static double *dense_of(const lcp_family *f)
     return D;
 }
 
-static int goes_on(int runs, double since)
-{
-    return runs < 3 || (runs < 100 && cpu_seconds() - since < 0.05);
-}
-
 /* The residual of each row against its terms, recomputed here.  z: of the scaled problem. */
 static int solves(const lcp_family *f, const double *z, const double *column)
 {
@@ -425,26 +420,37 @@ static int solves(const lcp_family *f, const double *z, const double *column)
     return right;
 }
 
-/* Of our own by name; dense: for the tableau, whose matrix is made before, or NULL. */
-static timing own(const char *name, const lcp_family *f, const double *dense, double *z)
+/* One of our own by name; dense: for the tableau, whose matrix is made before, or NULL. */
+typedef struct {
+    const char *name;
+    const double *dense;
+    timing least; /* INFINITY: not solved, and not tried again */
+} own_method;
+
+static void run_once(own_method *m, const lcp_family *f, double *z)
 {
-    timing t = {INFINITY, name};
-    const double since = cpu_seconds();
     rb_lcp_options opt = rb_lcp_defaults();
+    rb_lcp_info info = {0};
     opt.seconds = MOST_SECONDS;
-    for (int runs = 0; goes_on(runs, since); runs++) {
-        rb_lcp_info info = {0};
-        const double start = cpu_seconds();
-        const rb_status s =
-            dense ? rb_lcp_lemke(&(rb_lcp_problem){f->n, dense, f->n, f->q}, &opt, z, &info)
-                  : rb_lcp_solve(name, &(rb_lcp_mixed_problem){.M = &f->M, .q = f->q}, &opt, z,
-                                 &info);
-        if (s != RB_OK)
-            break;
-        t.seconds = fmin(t.seconds, cpu_seconds() - start);
-        t.solver = info.solver;
-    }
-    return t;
+    const double start = cpu_seconds();
+    const rb_status s =
+        m->dense
+            ? rb_lcp_lemke(&(rb_lcp_problem){f->n, m->dense, f->n, f->q}, &opt, z, &info)
+            : rb_lcp_solve(m->name, &(rb_lcp_mixed_problem){.M = &f->M, .q = f->q}, &opt, z, &info);
+    const double seconds = cpu_seconds() - start;
+    m->least = s == RB_OK ? (timing){fmin(m->least.seconds, seconds), info.solver}
+                          : (timing){INFINITY, NULL};
+}
+
+/* The least times of methods that take turns, so that what else the machine does meets all of
+ * them.  z: n x methods, what each has found. */
+static void run_in_turns(int methods, own_method *method, const lcp_family *f, double *z)
+{
+    const double since = cpu_seconds();
+    for (int runs = 0; runs < 3 || (runs < 100 && cpu_seconds() - since < 0.05 * methods); runs++)
+        for (int k = 0; k < methods; k++)
+            if (runs == 0 || isfinite(method[k].least.seconds))
+                run_once(&method[k], f, z + (size_t)k * (size_t)f->n);
 }
 
 #ifdef HAVE_SICONOS
@@ -458,6 +464,11 @@ static const struct {
               {SICONOS_LCP_PATHSEARCH, lcp_pathsearch},
               {SICONOS_LCP_NEWTONMIN, lcp_newton_min},
               {SICONOS_LCP_NEWTON_FB_FBLSA, lcp_newton_FB}};
+
+static int goes_on(int runs, double since)
+{
+    return runs < 3 || (runs < 100 && cpu_seconds() - since < 0.05);
+}
 
 /* Solved: to 1e-8 of the largest terms. */
 static double run_theirs(int k, const lcp_family *f, const double *dense)
@@ -532,20 +543,26 @@ enum { LARGEST_DENSE = 3300, LARGEST_OTHER = 1700 };
 static double family_row(const char *name, const lcp_family *f, const lcp_family *unscaled,
                          const double *column)
 {
+    enum { METHODS = 5, AUTO = 3 };
     double *dense = f->n <= LARGEST_DENSE ? dense_of(f) : NULL;
-    const char *const names[] = {"lemke", "lemke-sparse", "newton", "auto"};
-    double *z = need((size_t)f->n, 1), seconds[4];
-    timing chosen = {INFINITY, NULL};
-    for (int k = 0; k < 4; k++) {
-        chosen = k || dense ? own(names[k], f, k ? NULL : dense, z) : chosen;
-        seconds[k] = chosen.seconds;
-        if (isfinite(chosen.seconds)) {
+    double *z = need((size_t)f->n, METHODS), seconds[METHODS];
+    own_method method[METHODS] = {
+        {"lemke", dense, {INFINITY, NULL}},
+        {"lemke-sparse", NULL, {INFINITY, NULL}},
+        {"newton", NULL, {INFINITY, NULL}},
+        {"auto", NULL, {INFINITY, NULL}},
+        {"lemke", NULL, {INFINITY, NULL}} /* with the making of its matrix */};
+    const int first = dense ? 0 : 1, last = dense ? METHODS : METHODS - 1;
+    run_in_turns(last - first, method + first, f, z + (size_t)first * (size_t)f->n);
+    for (int k = 0; k < METHODS; k++) {
+        seconds[k] = method[k].least.seconds;
+        if (k <= AUTO && isfinite(seconds[k])) {
             claims++;
-            wrong_claims += !solves(unscaled, z, column);
+            wrong_claims += !solves(unscaled, z + (size_t)k * (size_t)f->n, column);
         }
     }
-    const double tableau = dense ? own("lemke", f, NULL, z).seconds : INFINITY;
-    const double best = fmin(tableau, fmin(seconds[1], seconds[2]));
+    const timing chosen = method[AUTO].least;
+    const double best = fmin(seconds[METHODS - 1], fmin(seconds[1], seconds[2]));
     printf("| %s%s | %d |", name, column ? ", scaled" : "", f->n);
     for (int k = 0; k < 4; k++)
         cell(seconds[k]);

@@ -1,7 +1,7 @@
 #define _DEFAULT_SOURCE /* wait4 */
 /* Whole processes of the program, processor time and elapsed time, medians of turns: with the
  * threads that OpenMP takes by itself and with one; CONTACT's input file beside the same elements
- * by options.  B: the build directory. */
+ * by options; the numbers of all elements printed, beside none of them.  B: the build directory. */
 #include "rows.h"
 
 #include <gsl/gsl_sort.h>
@@ -142,10 +142,30 @@ static void contact_beside_options(void)
     }
 }
 
+static void numbers_beside_none(void)
+{
+    static const int elements[] = {1000, 10000, 100000};
+    static const char *const forms[] = {"tsv", "json"};
+
+    printf("\n| | elements | printed | brief | ratio |\n|---|---|---|---|---|\n");
+    for (size_t k = 0; k < sizeof forms / sizeof *forms; k++)
+        for (size_t j = 0; j < sizeof elements / sizeof *elements; j++) {
+            char options[2][200], name[40];
+            for (int side = 0; side < SIDES; side++)
+                snprintf(options[side], sizeof options[side],
+                         "--support halfplane --similar --half-width 1 --formulation steady "
+                         "--creep-ratio .4 --contact-elements %d --format %s",
+                         elements[j], side ? "brief" : forms[k]);
+            snprintf(name, sizeof name, "numbers of all elements, %s", forms[k]);
+            compare(name, elements[j], options[0], options[1]);
+        }
+}
+
 int main(void)
 {
     snprintf(program, sizeof program, "%s/rollbem", getenv("B") ? getenv("B") : "build");
     threads_beside_one();
     contact_beside_options();
+    numbers_beside_none();
     return 0;
 }

@@ -330,7 +330,10 @@ rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
                       const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s)
 {
     *s = (lcp_posed){.M = *M, .q = q, .lower = lower, .upper = upper, .opt = *opt, .caller = *opt};
-    const rb_status status = rb_lcp_scale_create(M, q, always, &s->scale);
+    /* by the entries that are not zero alone, where they are known */
+    const lcp_matrix entries = {
+        .n = M->n, .dense = M->sparse ? NULL : M->dense, .ld = M->ld, .sparse = M->sparse};
+    const rb_status status = rb_lcp_scale_create(&entries, q, always, &s->scale);
     s->largest = s->scale.largest;
     return status == RB_OK && s->scale.needed ? pose_scaled(s) : status;
 }

@@ -23,20 +23,29 @@ static const double FEW = 0.02;
 static const double MANY = 0.1;
 
 /* Newton's method goes first on sparse matrices whose diagonal is positive: on those of discretised
- * inequalities, which it solves always, and on others; so many systems are its first turn. */
+ * inequalities, which it solves always, and on others; and on those without negative entries whose
+ * diagonal is positive where q is negative, from where it begins.  So many systems are its first
+ * turn. */
 enum { SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 
 typedef struct {
-    int n, positive; /* order; 1: all diagonal entries are positive */
-    double part;     /* entries that are not zero, as a part of all */
+    int n;        /* order */
+    int positive; /* 1: all diagonal entries are positive */
+    int begins;   /* 1: those where q is negative are, and no entry is negative */
+    double part;  /* entries that are not zero, as a part of all */
 } structure;
 
-static structure read_structure(const rb_sparse *M)
+static structure read_structure(const rb_sparse *M, const double *q)
 {
     const int n = M->cols;
-    structure s = {n, 1, M->p[n] / ((double)n * n)};
-    for (int j = 0; s.positive && j < n; j++)
-        s.positive = rb_sparse_diagonal(M, j) > 0.0;
+    structure s = {n, 1, 1, M->p[n] / ((double)n * n)};
+    for (int j = 0; (s.positive || s.begins) && j < n; j++) {
+        const double x = rb_sparse_diagonal(M, j);
+        s.positive &= x > 0.0;
+        s.begins &= x > 0.0 || q[j] >= 0.0;
+    }
+    for (int k = 0; s.begins && k < M->p[n]; k++)
+        s.begins = M->x[k] >= 0.0;
     return s;
 }
 
@@ -77,11 +86,12 @@ static void add(portfolio *p, int kind, double share, int systems, const lcp_tas
 static void choose(const lcp_task *task, portfolio *p)
 {
     const rb_sparse *M = task->M.sparse;
-    const structure s = read_structure(M);
+    const structure s = read_structure(M, task->q);
     const int sparse_pivots = s.n >= RB_LCP_SPARSE_PIVOTS_FROM && s.part < FEW;
     const int first = sparse_pivots || s.n > RB_LCP_TABLEAU_UP_TO ? SPARSE : TABLEAU;
-    const int sparse = s.positive && s.part <= MANY;
-    const int discretised = sparse && s.n >= RB_LCP_NEWTON_HOPE_FROM && rb_lcp_coarse_fits(M);
+    const int sparse = (s.positive || s.begins) && s.part <= MANY;
+    const int discretised =
+        sparse && s.positive && s.n >= RB_LCP_NEWTON_HOPE_FROM && rb_lcp_coarse_fits(M);
     const int sure = discretised && s.n >= RB_LCP_NEWTON_SURE_FROM;
     const int newton_first =
         sure || (sparse && !discretised && s.n >= RB_LCP_NEWTON_HOPE_FROM) || task->opt->start;
@@ -407,7 +417,8 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
         status = retry_definite(p, &o, z, info, status);
         return branch(p, &o, began, z, info, status);
     }
-    const int large = p->M->cols >= RB_LCP_LEMKE_SPARSE_FROM && read_structure(p->M).part < MANY;
+    const int large =
+        p->M->cols >= RB_LCP_LEMKE_SPARSE_FROM && read_structure(p->M, p->q).part < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)
         return retry_definite(p, &o, z, info, rb_lcp_mixed(p, &o, z, info));
     const int n = p->M->cols;

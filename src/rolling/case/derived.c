@@ -415,8 +415,9 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
     const int least = rc->mesh == RB_MESH_FITTED     ? RB_ROLLING_TRANSFORMS_FITTED
-                      : rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS
-                                                     : RB_ROLLING_TRANSFORMS_STEPS;
+                      : rc->formulation != RB_STEADY ? RB_ROLLING_TRANSFORMS_STEPS
+                      : rc->mesh == RB_MESH_ALIGNED  ? RB_ROLLING_TRANSFORMS_ALIGNED
+                                                     : RB_ROLLING_TRANSFORMS;
 
     return mesh->n >= least && suits_transforms(rc);
 }
