@@ -1,8 +1,10 @@
 #define _DEFAULT_SOURCE /* wait4 */
 /* Whole processes of the program, processor time and elapsed time, medians of turns: with the
  * threads that OpenMP takes by itself and with one; CONTACT's input file beside the same elements
- * by options; the numbers of all elements printed, beside none of them.  B: the build directory. */
+ * by options; the numbers of all elements printed, beside the solution alone.  B: the build
+ * directory. */
 #include "rows.h"
+#include "words.h"
 
 #include <gsl/gsl_sort.h>
 #include <stdlib.h>
@@ -142,22 +144,40 @@ static void contact_beside_options(void)
     }
 }
 
+/* Whole processes that print every element, beside the solution alone, in this process. */
 static void numbers_beside_none(void)
 {
     static const int elements[] = {1000, 10000, 100000};
     static const char *const forms[] = {"tsv", "json"};
 
-    printf("\n| | elements | printed | brief | ratio |\n|---|---|---|---|---|\n");
+    printf("\n| | elements | printed | solved | ratio |\n|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof forms / sizeof *forms; k++)
         for (size_t j = 0; j < sizeof elements / sizeof *elements; j++) {
-            char options[2][200], name[40];
-            for (int side = 0; side < SIDES; side++)
-                snprintf(options[side], sizeof options[side],
-                         "--support halfplane --similar --half-width 1 --formulation steady "
-                         "--creep-ratio .4 --contact-elements %d --format %s",
-                         elements[j], side ? "brief" : forms[k]);
+            char options[200], name[40];
+            double printed = INFINITY, solved = INFINITY;
+            snprintf(options, sizeof options,
+                     "--support halfplane --similar --half-width 1 --formulation steady "
+                     "--creep-ratio .4 --contact-elements %d --format %s",
+                     elements[j], forms[k]);
+            for (int turn = 0; turn < TURNS; turn++) {
+                double seconds[CLOCKS];
+                rb_case_result r = {0};
+                run(program, options, 1, seconds);
+                printed = fmin(printed, seconds[0]);
+                const double start = processor_seconds();
+                rb_case *c = case_of_words((const char *const[]){
+                    "support halfplane similar yes half-width 1 formulation steady creep-ratio .4",
+                    word_of("contact-elements", elements[j]).text, NULL});
+                if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, NULL) != RB_OK)
+                    exit(70);
+                solved = fmin(solved, processor_seconds() - start);
+                rb_case_result_free(&r);
+                rb_case_free(c);
+            }
             snprintf(name, sizeof name, "numbers of all elements, %s", forms[k]);
-            compare(name, elements[j], options[0], options[1]);
+            printf("| %s | %s | %s | %s | %.2f |\n", name, row_count(elements[j]).text,
+                   row_seconds(printed).text, row_seconds(solved).text, printed / solved);
+            fflush(stdout);
         }
 }
 
