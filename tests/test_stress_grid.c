@@ -103,7 +103,7 @@ TEST(a_whole_wheel_ends_where_its_material_does)
         CHECK_OK(rb_rolling_stress_on_grid(&model, 33, 9, INFINITY, &grid, &message));
         for (int i = 0; i < 33 * 9; i++)
             outside += !grid.inside[i] || isnan(grid.at[i].sxx);
-        CHECK_MAX(outside, 2, "a corner of the polygon at most");
+        assert_int_equal(outside, 0); /* corners of the polygon included */
         CHECK_ABS(grid.at[16].y, 0.0, 1e-12, "below the contact");
         CHECK_ABS(grid.at[16].x, 0.0, 1e-12, "in the middle of the row");
         CHECK_REL(grid.at[0].y, 100.0, 1e-12, "opposite it");

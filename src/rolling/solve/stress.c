@@ -324,16 +324,19 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
     }
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
     lift_onto_polygon(&mesh, model->rc->a.radius, n, moved);
+    const double rounding = 1e-12 * model->rc->a.radius;
     for (int k = 0; k < n; k++) {
-        /* An odd number of elements lies straight below a point inside. */
+        /* An odd number of elements lies straight below a point inside; the end of an element, on
+         * whose side rounding would decide, belongs to the body. */
         const double x = moved[2 * k], y = moved[2 * k + 1];
-        int odd = 0;
+        int odd = 0, is_end = 0;
         for (int j = 0; j < mesh.n; j++) {
             const double x0 = mesh.x0[j], x1 = mesh.x1[j];
+            is_end |= hypot(x - x0, y - mesh.y0[j]) <= rounding;
             if ((x0 <= x) != (x1 <= x))
                 odd ^= mesh.y0[j] + (x - x0) / (x1 - x0) * (mesh.y1[j] - mesh.y0[j]) <= y;
         }
-        inside[k] = x != xy[2 * k] || y != xy[2 * k + 1] || odd;
+        inside[k] = x != xy[2 * k] || y != xy[2 * k + 1] || odd || is_end;
     }
     rb_bem_mesh_free(&mesh);
     return rb_arena_done(&scratch, RB_OK);
