@@ -34,8 +34,10 @@ differences() { # a/R, options: of hub and half-plane, arc and half-plane, hub a
     zone=$(awk "BEGIN { print 1.3 * $a }")
     shift
     for support in halfplane hub arc; do
+        [ $support = halfplane ] && own=$(echo "$*" | sed 's/--outer-elements [0-9]*//') || own=$*
+        # shellcheck disable=SC2086
         solve --formulation steady --creep-ratio 0.4 --half-width "$a" --zone "$zone" \
-            --support $support --mesh uniform --header=bare "$@" > "$scratch/$support"
+            --support $support --mesh uniform --header=bare $own > "$scratch/$support"
     done
     difference "$scratch/hub" "$scratch/halfplane"
     difference "$scratch/arc" "$scratch/halfplane"
