@@ -63,6 +63,14 @@ static double more_load(const patch *r, const edge *e, double reach)
     return (load - carried) / (r->p[e->from] * (r->ends[e->from + 1] - r->ends[e->from]));
 }
 
+/* In one zone, or at its bound: an element between stick and slip is in either one by rounding. */
+static int slip_alike(const patch *r, int i, int j)
+{
+    const double of_i = r->q[i] / r->p[i], of_j = r->q[j] / r->p[j];
+
+    return r->state->zone[i] == r->state->zone[j] || fabs(of_i - of_j) <= 1e-9 * fabs(of_j);
+}
+
 /* With so many elements replaced, by the parabola through three that lie so many apart. */
 static edge edge_with(const patch *r, int side, int replaced, int apart)
 {
@@ -76,7 +84,7 @@ static edge edge_with(const patch *r, int side, int replaced, int apart)
     for (int i = 0; i < 3; i++) {
         const int j = e.from - side * i * apart;
         /* Where the friction feeds back on it, the pressure bends at the end of a slip zone. */
-        if (beta != 0.0 && zone[j] != zone[e.from])
+        if (beta != 0.0 && !slip_alike(r, j, e.from))
             return e;
         d[i] = side * (r->x[j] - r->x[e.from]);
         y[i] = pow(r->p[j] / r->p[e.from], 1.0 / e.exponent);
