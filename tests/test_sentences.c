@@ -292,8 +292,8 @@ static const sentence bounds[] = {
      "--radius 100 --mu 0.3 --contact-elements 24 --formulation steady --approach 0.03 --force 310",
      STEEL "--radius 100 --mu 0.3 --contact-elements 24 --formulation steady --approach 0.03 "
            "--force 299.707"},
-    {"largest force", "the interface yields, and carries at most 199.944 N/mm",
-     CAPPED "--formulation steady --force -201", CAPPED "--formulation steady --force -199.944"},
+    {"largest force", "the interface yields, and carries at most 199.941 N/mm",
+     CAPPED "--formulation steady --force -201", CAPPED "--formulation steady --force -199.941"},
     {"largest force", "the interface yields, and carries at most",
      CAPPED "--formulation steady --force -200.1 --mesh aligned",
      CAPPED "--formulation steady --force -199 --mesh aligned"},

@@ -551,7 +551,7 @@ TEST(wrong_units_are_named)
     check_refused("--units si --support halfplane --load 1e5 --formulation steady "
                   "--force 25000 --yield-stress 1e6",
                   64,
-                  "--force: Q = 25000 N/m: the interface yields, and carries at most 516.437 N/m");
+                  "--force: Q = 25000 N/m: the interface yields, and carries at most 516.443 N/m");
 }
 
 /* Whatever a refusal lists is read, and is of the quantity. */
