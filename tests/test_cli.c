@@ -576,6 +576,11 @@ TEST(not_solved_is_1)
                              "--creep-ratio 1.2 --mesh fitted --solver nsn-jm-nls"),
                      1);
     assert_null(strstr(err, "nan"));
+    /* nor are the few elements of the first solution too long for the lower half of a wheel */
+    CHECK_RUN(rollbem("--support halfplane --young-b 210000 --radius-b 5 --support-b arc "
+                      "--gap parabola --mu 2 --load 1.2e6 --formulation steady "
+                      "--creep-ratio 1.2 --mesh fitted --contact-elements 30"),
+              1, err, "the contact does not end within 4.75 mm");
     /* a cone solver that gives up on its own measure where the case's residual is met */
     assert_int_equal(rollbem("--support hub --similar --mu 0.1 --half-width 2 "
                              "--force-ratio 1 --contact-elements 55 --solver nsn-fb"),

@@ -13,7 +13,8 @@ enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
     IN_CONTACT = 3,       /* elements that they leave to the contact */
-    FEW = 150             /* elements that tell how wide the line of many should be */
+    FEW = 150,            /* elements that tell how wide the line of many should be */
+    ENOUGH = 40           /* elements that have room beside 0.95 of the lower half */
 };
 
 typedef struct {
@@ -104,6 +105,16 @@ static int elements_for(const rb_rolling_model *model, interval zone)
                ? n
                : (int)fmin(RB_ROLLING_MOST_ELEMENTS,
                            fmax(n, ceil(a_little_less * n * width(zone) / (1.5 * covered))));
+}
+
+/* The elements of a coarse solution, or as many as leave room within the lower half of round bodies
+ * for one more beside the zone: a mesh has one there. */
+static int elements_with_room(const rb_rolling_case *rc, interval zone, int elements)
+{
+    static const double a_little_more = 1.01;
+    const double room = rb_rolling_lower_half(rc) - fmax(-zone.from, zone.to);
+
+    return (int)fmax(elements, fmin(ENOUGH, ceil(a_little_more * width(zone) / room)));
 }
 
 static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,
@@ -304,7 +315,9 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
                            "no potential contact was found that encloses the contact: "
                            "the last one tried reaches from %g to %g mm",
                            zone.from, zone.to);
-        s = equal_elements(model, zone, elements, &mesh, why);
+        s = equal_elements(model, zone,
+                           coarse ? elements_with_room(model->rc, zone, elements) : elements, &mesh,
+                           why);
         if (s == RB_OK)
             s = rb_rolling_model_build(model, &mesh, why);
         if (s < 0 || !model->state.p || (s != RB_ZONE && rb_rolling_gave_up(model)))
