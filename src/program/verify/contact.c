@@ -187,8 +187,8 @@ static void sliding(rb_verify *v)
     rc.load = 1.0;
     rc.force_ratio = -1.0;
     s = flat ? rb_verify_solve(v, &rc) : s;
-    double off = 0.0;
-    for (int i = 0; i < s->n && flat; i++)
+    double off = v->why ? NAN : 0.0;
+    for (int i = 0; i < s->n && !v->why; i++)
         if (fabs(s->x[i]) < 0.9)
             off = fmax(off, fabs(s->p[i] * M_PI * sqrt(1.0 - gsl_pow_2(s->x[i])) / cos(M_PI * g) *
                                      pow((1.0 - s->x[i]) / (1.0 + s->x[i]), g) -
