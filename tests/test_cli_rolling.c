@@ -444,28 +444,28 @@ TEST(friction_power_adds_up)
               "balance");
 }
 
-/* Friction so steep that no solution is found in the middle: these points keep their places, with
- * creepage and kappa, and the curve goes on. */
+/* Friction so steep that no solution is found in the middle, from 0.23 to 0.46 on 100 elements:
+ * points well within keep their places, with creepage and kappa, and the curve goes on. */
 TEST(curves_go_on_behind_points_without_a_solution)
 {
 #define STEEP                                                                                      \
     "curve --similar --support halfplane --gap parabola --young 210000 --poisson 0.28 "            \
     "--radius 460 --load 1000 --mu 0.02 --friction-law linear --mu-fall 0.3 --slip-scale 8 "       \
-    "--speed 20000 --points 5 --contact-elements 60 --mesh fitted --to 0.5 "
+    "--speed 20000 --points 5 --contact-elements 100 --mesh fitted --to 0.56 "
     assert_int_equal(rollbem(STEEP "--json"), 1);
     held_json *root = NOT_NULL(json_loads(out, 0, NULL));
     const json_t *curve = json_object_get(root, "curve");
     assert_non_null(strstr(err, ": 10 points in"));
     assert_non_null(strstr(err, "4 without a solution"));
-    assert_non_null(strstr(err, "rollbem: the point at xi R/(mu a) = 0.25 has no solution: "));
+    assert_non_null(strstr(err, "rollbem: the point at xi R/(mu a) = 0.28 has no solution: "));
     for (size_t i = 0; i < 10; i++) {
         const int middle = i == 2 || i == 3 || i == 6 || i == 7;
-        CHECK_ABS(entry(curve, "creep_ratio", i), 0.125 * (double)(i < 5 ? i : 9 - i), 1e-9, "s");
-        CHECK_REL(entry(curve, "kappa", i), 0.96976, 1e-4, "kappa");
+        CHECK_ABS(entry(curve, "creep_ratio", i), 0.14 * (double)(i < 5 ? i : 9 - i), 1e-9, "s");
+        CHECK_REL(entry(curve, "kappa", i), 0.96963, 1e-4, "kappa");
         assert_int_equal(isnan(entry(curve, "force_ratio", i)), middle);
         assert_int_equal(isnan(entry(curve, "normal_load", i)), middle);
     }
-    CHECK_REL(entry(curve, "force_ratio", 4), -0.0793376, 1e-5, "beyond");
+    CHECK_REL(entry(curve, "force_ratio", 4), -0.0627098, 1e-5, "beyond");
     /* and a second curve */
     CHECK_RUN(rollbem(STEEP "--mu 0.02,0.3"), 1, err, "curve, mu(0) = 0.6: 10 points in");
     assert_non_null(strstr(out, "\n0.6\t"));
