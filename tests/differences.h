@@ -24,6 +24,12 @@ typedef struct {
 static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
                     difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
+static int difference_has_wheels(const rb_rolling_case *rc)
+{
+    return rc->a.support != RB_BEM_HALFPLANE ||
+           (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
+}
+
 /* Parts of an input's scale, ended by 0: within a long step zones change, within a short one
  * the rounding of solutions counts.  The flexibility of a wheel, and what is solved by products,
  * are known to 1e-12 or so: steps that would divide this to more than 1e-8 tell nothing. */
@@ -31,10 +37,19 @@ static const double *difference_parts(const rb_rolling_model *model)
 {
     static const double of_matrices[] = {1e-3, 1e-4, 1e-5, 0.0}, of_products[] = {1e-3, 1e-4, 0.0},
                         of_wheels[] = {4e-3, 2e-3, 1e-3, 4e-4, 2e-4, 1e-4, 0.0};
-    const rb_rolling_case *rc = model->rc;
-    const int has_wheels =
-        rc->a.support != RB_BEM_HALFPLANE || (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
-    return has_wheels ? of_wheels : model->bodies.F ? of_matrices : of_products;
+
+    return difference_has_wheels(model->rc) ? of_wheels
+           : model->bodies.F                ? of_matrices
+                                            : of_products;
+}
+
+/* Whether a step of that part is tried, off being the best so far, INFINITY before the first that
+ * stays within its zones.  The last steps of wheels are near to rounding: they only show whether
+ * one before was too long. */
+static int difference_is_tried(const rb_rolling_model *model, double part, double off)
+{
+    return part > 0.0 && !(off <= 1e-8) &&
+           (part >= 4e-4 || isfinite(off) || !difference_has_wheels(model->rc));
 }
 
 /* size: of the value, for a change of the input by all of its own; NAN: both NAN. */
@@ -437,8 +452,8 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
             /* a zone may change within the step, or the elements outside the contact have a
              * kink there: then a shorter one counts */
             differences best = {.off = INFINITY};
-            for (const double *part = difference_parts(&model); *part && !(best.off <= 1e-8);
-                 part++) {
+            for (const double *part = difference_parts(&model);
+                 difference_is_tried(&model, *part, best.off); part++) {
                 differences one = {0};
                 difference_of_input(&f, &number[k], of, &at, *part, &one);
                 if (one.compared && one.off < best.off)
@@ -640,7 +655,8 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
     for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {
         differences best = {.off = INFINITY};
         for (const double *part = difference_parts(&at.model);
-             *part && !(best.off <= 1e-8) && number[k].input.value != 0.0; part++) {
+             difference_is_tried(&at.model, *part, best.off) && number[k].input.value != 0.0;
+             part++) {
             differences one = {0};
             difference_of_steps(resolved, &number[k], &at, stay, &slopes, *part, &one);
             if (one.compared && one.off < best.off)
