@@ -801,6 +801,21 @@ TEST(every_bad_value_is_blamed_where_it_was_given)
     assert_true(options > 70);
 }
 
+/* A message is read where something failed alone: whoever asks only whether a case can be resolved
+ * leaves it as it is, without an end. */
+TEST(success_reads_no_message)
+{
+    rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
+    rb_message untouched, before;
+    CHECK_OK(set_words(c, "units=inch similar=yes support=halfplane load=100", &message));
+    for (size_t i = 0; i < sizeof untouched.text; i++)
+        untouched.text[i] = "1 mm "[i % 5];
+    before = untouched;
+    CHECK_OK(rb_case_resolve(c, &untouched));
+    assert_memory_equal(untouched.text, before.text, sizeof before.text);
+    rb_case_free(c);
+}
+
 TEST(what_a_refusal_speaks_of_is_not_what_it_blames)
 {
     static const char *const bad[][2] = {

@@ -91,7 +91,7 @@ static rb_status has_meaning(const rb_case *c, const rb_option *o, int entry, do
 
     *means = 0;
     for (int side = -1; side <= 1 && !*means; side += 2) {
-        rb_message why;
+        rb_message why = {.text = ""};
         const double x = value + side * step;
         rb_case *copy = varied(c, o, entry, x);
         const rb_status s = copy ? rb_case_resolve(copy, &why) : RB_ENOMEM;

@@ -360,9 +360,10 @@ static const case_table *table_of(const rb_case *c, const rb_option *o)
 
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
-    if (why)
-        rb_unit_translate(c->words.units, why->text, sizeof why->text);
-    if (s != RB_EINVAL || !why)
+    if (s == RB_OK || !why) /* what succeeds leaves no text, nor need one have been set */
+        return s;
+    rb_unit_translate(c->words.units, why->text, sizeof why->text);
+    if (s != RB_EINVAL)
         return s;
     const rb_message said = *why;
     const source by = blamed(c, &said);
