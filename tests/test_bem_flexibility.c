@@ -37,7 +37,7 @@ TEST(halfplane_is_flamants_integral)
                  c = (1.0 - 2.0 * steel.poisson) / (4.0 * steel.shear);
     double F[2 * m * 2 * n];
     OWNED(rb_bem_flexibility) f;
-    CHECK_OK(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, datum), &f, NULL));
+    CHECK_OK(rb_bem_flexibility_halfplane(n, uneven, steel, datum, &f, NULL));
     CHECK_OK(rb_bem_flexibility_matrix(&f, F, 2 * m));
     for (int j = 0; j < n; j++)
         for (int i = 0; i < m; i++) {

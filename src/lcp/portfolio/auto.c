@@ -31,14 +31,20 @@ enum { SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 typedef struct {
     int n;        /* order */
     int positive; /* 1: all diagonal entries are positive */
-    int begins;   /* 1: those where q is negative are, and no entry is negative */
-    double part;  /* entries that are not zero, as a part of all */
+    int begins;   /* 1: those where q is negative are, and no entry at all is negative */
+    double part;  /* filled */
 } structure;
+
+/* Entries that are not zero, as a part of all. */
+static double filled(const rb_sparse *M)
+{
+    return M->p[M->cols] / ((double)M->cols * M->cols);
+}
 
 static structure read_structure(const rb_sparse *M, const double *q)
 {
     const int n = M->cols;
-    structure s = {n, 1, 1, M->p[n] / ((double)n * n)};
+    structure s = {n, 1, 1, filled(M)};
     for (int j = 0; (s.positive || s.begins) && j < n; j++) {
         const double x = rb_sparse_diagonal(M, j);
         s.positive &= x > 0.0;
@@ -83,7 +89,7 @@ static void add(portfolio *p, int kind, double share, int systems, const lcp_tas
 }
 
 /* The order and the shares. */
-static void choose(const lcp_task *task, portfolio *p)
+static void choose_order(const lcp_task *task, portfolio *p)
 {
     const rb_sparse *M = task->M.sparse;
     const structure s = read_structure(M, task->q);
@@ -179,7 +185,7 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
     /* Memory that one member lacks may be enough for the others. */
     rb_status s = RB_OK, said = RB_ENOMEM;
     *info = RB_LCP_INFO_NONE;
-    choose(task, &p);
+    choose_order(task, &p);
     /* The first method that pivots: how it has ended is what is said of a problem that none
      * has solved. */
     const member *spokesman = &p.member[first->method == &rb_lcp_newton_method];
@@ -417,8 +423,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
         status = retry_definite(p, &o, z, info, status);
         return branch(p, &o, began, z, info, status);
     }
-    const int large =
-        p->M->cols >= RB_LCP_LEMKE_SPARSE_FROM && read_structure(p->M, p->q).part < MANY;
+    const int large = p->M->cols >= RB_LCP_LEMKE_SPARSE_FROM && filled(p->M) < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)
         return retry_definite(p, &o, z, info, rb_lcp_mixed(p, &o, z, info));
     const int n = p->M->cols;

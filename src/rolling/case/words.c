@@ -608,18 +608,17 @@ static rb_status check_rigid_parts(const rb_case *c, rb_message *why)
  * what stands in the case file gives way to supports of the command line. */
 static rb_status check_boundary(const rb_case *c, rb_message *why)
 {
-    static const char *const options[] = {"outer-elements", "near-field"};
+    static const char no_wheel[] = "it needs a wheel, half-planes have no elements around them";
     const rb_rolling_case *rc = &c->resolved.rc;
-    const int is_asked[] = {rc->outer_elements > 0, rc->near_field != RB_NEAR_FIELD_AUTO};
-    const int gives_way = rb_case_given(c, "support") == RB_GIVEN_ARGUMENT ||
+    const int is_flat = rb_rolling_can(rc, RB_BODY_FLAT),
+              gives_way = rb_case_given(c, "support") == RB_GIVEN_ARGUMENT ||
                           rb_case_given(c, "support-b") == RB_GIVEN_ARGUMENT;
-    rb_status s = RB_OK;
+    rule rules[] = {{is_flat && rc->outer_elements > 0, "outer-elements", no_wheel},
+                    {is_flat && rc->near_field != RB_NEAR_FIELD_AUTO, "near-field", no_wheel}};
 
-    for (int k = 0; k < 2 && s == RB_OK && rb_rolling_can(rc, RB_BODY_FLAT); k++)
-        if (is_asked[k] && !(rb_case_given(c, options[k]) > 0 && gives_way))
-            s = rb_case_refuse_given(
-                c, options[k], "it needs a wheel, half-planes have no elements around them", why);
-    return s;
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+        rules[k].has_no_meaning &= !(rb_case_given(c, rules[k].option) > 0 && gives_way);
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
 }
 
 /* What stands in a file of layers is not given a second time. */

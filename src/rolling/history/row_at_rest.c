@@ -24,28 +24,28 @@ typedef struct {
     double shift, half_width, interval, mu_given, strain;
     double *past; /* coefficients of friction, plastic slip, displacements that the bodies bring,
                      and what those that relax remember */
-} bookmark;
+} checkpoint;
 
-static void bookmark_free(bookmark *b)
+static void checkpoint_free(checkpoint *b)
 {
     rb_rolling_states_free(&b->state);
     free(b->past);
 }
 
-static rb_status bookmark_set(const history_state *r, bookmark *b)
+static rb_status checkpoint_save(const history_state *r, checkpoint *b)
 {
     const rb_rolling_model *model = r->model;
     const size_t n = (size_t)model->mesh.n, m = n + 1;
     const size_t size = rb_rolling_memory_track_size(&r->particles.past);
 
-    *b = (bookmark){.row = r->row,
-                    .part = r->part,
-                    .shift = r->shift,
-                    .half_width = model->half_width,
-                    .interval = r->particles.interval,
-                    .mu_given = r->particles.mu_given,
-                    .strain = r->particles.strain,
-                    .past = rb_alloc(2 * n + 2 * m + size, 1)};
+    *b = (checkpoint){.row = r->row,
+                      .part = r->part,
+                      .shift = r->shift,
+                      .half_width = model->half_width,
+                      .interval = r->particles.interval,
+                      .mu_given = r->particles.mu_given,
+                      .strain = r->particles.strain,
+                      .past = rb_alloc(2 * n + 2 * m + size, 1)};
     if (!b->past)
         return RB_ENOMEM;
     rb_rolling_memory_track_save(&r->particles.past, b->past + 2 * n + 2 * m);
@@ -58,7 +58,7 @@ static rb_status bookmark_set(const history_state *r, bookmark *b)
     return rb_rolling_states_keep(model, r->history, 0, 1, &b->state);
 }
 
-static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
+static rb_status checkpoint_restore(checkpoint *b, history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const size_t n = (size_t)model->mesh.n, m = n + 1;
@@ -89,7 +89,7 @@ static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
 }
 
 /* How much the tractions of a state differ from others, as a part of what the load makes. */
-static double differs(const rb_rolling_model *model, const rb_rolling_states *other)
+static double change_of_tractions(const rb_rolling_model *model, const rb_rolling_states *other)
 {
     const rb_contact_state *state = &model->state;
     const double *h = model->bodies.f.h, P = rb_rolling_model_load(model),
@@ -126,7 +126,7 @@ static int is_pressure(const rb_rolling_model *model, const rb_rolling_states *o
 /* 1: a row at rest has one answer, in however many steps it is computed: without contact at its
  * end, without friction and memory, or if a force or shift alone moved bodies that are not
  * coupled, no bulk stress strained them, and no law changed on the way. */
-static int is_one_step_enough(const history_state *r, const bookmark *before)
+static int is_one_step_enough(const history_state *r, const checkpoint *before)
 {
     const rb_rolling_model *model = r->model;
     const int coupled = rb_contact_operator_response(model->problem.op).coupled, row = before->row,
@@ -178,13 +178,13 @@ rb_status rb_rolling_row_compute_at_rest(history_state *r, rb_message *why)
 {
     const int given = rb_rolling_row_steps_at_rest(r);
     double fall[LOOKED_BACK] = {0.0};
-    bookmark start;
+    checkpoint start;
     rb_rolling_states coarser = {0};
     rb_status s;
 
     if (given > 0)
         return rb_rolling_row_compute(r, given, why);
-    s = bookmark_set(r, &start);
+    s = checkpoint_save(r, &start);
     if (s == RB_OK)
         s = rb_rolling_row_compute(r, 1, why);
     double change = s == RB_OK && !is_one_step_enough(r, &start) ? INFINITY : 0.0;
@@ -194,11 +194,11 @@ rb_status rb_rolling_row_compute_at_rest(history_state *r, rb_message *why)
         steps *= 2;
         s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);
         if (s == RB_OK)
-            s = bookmark_return(&start, r, why);
+            s = checkpoint_restore(&start, r, why);
         if (s == RB_OK)
             s = rb_rolling_row_compute(r, steps, why);
         if (s == RB_OK)
-            change = differs(r->model, &coarser);
+            change = change_of_tractions(r->model, &coarser);
         for (int k = LOOKED_BACK - 1; k > 0; k--)
             fall[k] = fall[k - 1];
         fall[0] = r->fall.of_P;
@@ -210,6 +210,6 @@ rb_status rb_rolling_row_compute_at_rest(history_state *r, rb_message *why)
         r->model->rows.changed = r->history->n;
     }
     rb_rolling_states_free(&coarser);
-    bookmark_free(&start);
+    checkpoint_free(&start);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the steps of a row") : s;
 }
