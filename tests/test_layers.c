@@ -45,8 +45,10 @@ static const struct {
 } shared[] = {
     {"lcp/portfolio", "lcp/lemke/lemke"},
     {"lcp/portfolio", "lcp/proof/bounds"},
-    {"lcp/lemke", "lcp/proof/bounds"},
+    {"lcp/portfolio", "lcp/proof/farkas"},
+    {"lcp/lemke", "lcp/proof/farkas"},
     {"lcp/proof", "lcp/lemke/lemke"},
+    {"lcp/proof", "lcp/lemke/scale"},
     {"lcp/proof", "lcp/portfolio/linear"},
     {"lcp/friction", "lcp/proof/absent"},
     {"lcp/friction", "lcp/proof/bounds"},

@@ -1,7 +1,7 @@
 /* GMRES (Saad and Schultz), preconditioned from the right, for linear problems that are
  * known by products: unknowns inside, and delta and xi at the border.  The preconditioner
  * of all is P = [A~ B; C 0], A~ that of the inner unknowns. */
-#include "lcp/contact/internal.h"
+#include "lcp/contact/gmres.h"
 
 #include <cblas.h>
 #include <float.h>

@@ -69,38 +69,13 @@ rb_status rb_contact_reduced_add(const rb_contact_problem *problem, const rb_con
 rb_status rb_contact_solve_zones(rb_contact_problem *problem, rb_contact_unknowns unknowns,
                                  rb_contact_state *state);
 
-/* ---- gmres.c ----------------------------------------------------------------------- */
-
-/* A linear system [A B; C 0] with inner unknowns and at most two border unknowns.  `of`
- * is passed to the functions. */
-typedef struct {
-    int inner, borders;
-    void (*multiply)(const void *of, const double *x, double *y);
-    void (*precondition)(const void *of, const double *b, double *x); /* x ~ A^-1 b */
-    void (*border_column)(const void *of, int k, double *column);     /* of B */
-    void (*border_rows)(const void *of, const double *x, double *y);  /* y = C x */
-    const void *of;
-} rb_contact_linear;
-
-/* Workspace that is kept from solve to solve, because allocating memory costs more than
- * the arithmetic.  Initially zero except for size. */
-enum { RB_CONTACT_BASIS = 100 };
-typedef struct {
-    size_t size;                         /* largest number of unknowns */
-    double *basis[RB_CONTACT_BASIS + 1]; /* allocated on demand; owned, like work */
-    double *work;
-} rb_contact_gmres_scratch;
-void rb_contact_gmres_free(rb_contact_gmres_scratch *scratch);
-
-/* GMRES with start x.  RB_OK also if the residual no longer decreases: either it is at
- * rounding level, or the residual of the whole problem shows the error.  RB_ENOMEM. */
-rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scratch *scratch,
-                           const double *b, double *x);
-
 /* ---- operator.c: what every kind has ----------------------------------------------- */
 
 /* Which operator to invert approximately: F_NN, A F_TT, or 1 + hardening F_TT. */
 typedef enum { RB_INVERSE_NORMAL, RB_INVERSE_TANGENTIAL, RB_INVERSE_YIELDING } rb_contact_inverse;
+
+/* A linear system for GMRES (gmres.h). */
+typedef struct rb_contact_linear rb_contact_linear;
 
 typedef struct {
     void (*add)(rb_contact_operator *op, const double *p, const double *q, double *gap,
@@ -176,8 +151,14 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_conta
 /* Newton's method from the zones of the state (warm), or from the result of alternating
  * normal and tangential problems.  RB_MAXITER: it cycles; RB_SINGULAR. */
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state);
+/* rb_contact_newton, completed. */
+rb_status rb_contact_by_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                               int warm, rb_contact_state *state);
+/* What Newton's method has ended with, as s says, completed. */
+rb_status rb_contact_end_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                                rb_status s, rb_contact_state *state);
 
-/* ---- attempt.c --------------------------------------------------------------------- */
+/* ---- complete.c -------------------------------------------------------------------- */
 
 /* The scaled residual of the state.  RB_ENOMEM. */
 rb_status rb_contact_measure(const rb_contact_problem *problem, rb_contact_state *state);
@@ -190,15 +171,12 @@ int rb_contact_is_solved(rb_status s, const rb_contact_problem *problem,
 /* s, but RB_INACCURATE where the residual says that a solution is none. */
 rb_status rb_contact_proven(rb_status s, const rb_contact_problem *problem,
                             const rb_contact_options *options, const rb_contact_state *state);
+
+/* ---- by_lemke.c -------------------------------------------------------------------- */
+
 /* Lemke's method, attempt by attempt: forms and covering vectors (theory.md K5). */
 rb_status rb_contact_by_lemke(rb_contact_problem *problem, const rb_contact_options *options,
                               rb_contact_state *state, rb_message *why);
-/* rb_contact_newton, completed. */
-rb_status rb_contact_by_newton(rb_contact_problem *problem, const rb_contact_options *options,
-                               int warm, rb_contact_state *state);
-/* What Newton's method has ended with, as s says, completed. */
-rb_status rb_contact_end_newton(rb_contact_problem *problem, const rb_contact_options *options,
-                                rb_status s, rb_contact_state *state);
 
 /* ---- by_friction.c ----------------------------------------------------------------- */
 

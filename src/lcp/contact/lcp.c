@@ -1,28 +1,14 @@
 /* The LCP of the contact problem: the pivoted form (K5), with the rows and columns that a
  * given load and a given force (K6) and a layer that yields (Y1) add to it, and Kwak's
  * (K4), which is a principal pivot of all that. */
-#include "lcp/contact/internal.h"
+#include "lcp/contact/lcp_order.h"
 
 #include <cblas.h>
-#include <lapacke.h>
-#include <string.h>
 
 void rb_contact_lcp_free(rb_contact_lcp *lcp)
 {
     rb_arena_free(&lcp->memory);
     *lcp = (rb_contact_lcp){0};
-}
-
-/* Columns of the two bordered unknowns, delta' and xi', behind those of the contact: 3n,
- * or 5n where a layer yields. */
-static int delta_column(const rb_contact_problem *p)
-{
-    return (p->yield ? 5 : 3) * p->n;
-}
-
-static int xi_column(const rb_contact_problem *p)
-{
-    return delta_column(p) + p->load_given;
 }
 
 /* n x n, column-major. */
@@ -119,113 +105,16 @@ static void pivoted_form(const rb_contact_problem *p, const double *force_N, con
     /* (K6) A given force makes xi an unknown with a column of its own; a given load and a given
      * force have a row each. */
     if (p->force_given)
-        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1, lcp->M + (size_t)xi_column(p) * ld + n, 1);
+        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1,
+                    lcp->M + (size_t)rb_contact_xi_column(p) * ld + n, 1);
     if (p->load_given)
-        pivoted_border(p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
+        pivoted_border(
+            p, (border_row){rb_contact_delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
     if (p->force_given)
         pivoted_border(
-            p, (border_row){xi_column(p), -xi_direction(lcp), force_N, force_T, p->force}, lcp);
-}
-
-/* ---- A layer that yields (Y1) ------------------------------------------------------ */
-
-/* Plastic slips s+ and s- (z), against sigma+- = yield + hardening u +- r_T (w), stand
- * behind the 3n, block by block. */
-static int yield_index(const rb_contact_problem *p, int i, int sign)
-{
-    return (3 + sign) * p->n + i;
-}
-
-/* s+ and s- take their parts of o T_T lambda, o r_T = gamma - mu r_N; and yield +
- * hardening u, u from the unit plastic slips of each element j. */
-static void add_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    const size_t n = (size_t)p->n, ld = (size_t)lcp->size;
-
-    for (size_t i = 0; i < n; i++)
-        for (int sign = 0; sign < 2; sign++) {
-            const double o = sign ? -1.0 : 1.0;
-            const size_t k = (size_t)yield_index(p, (int)i, sign);
-            lcp->M[n + i + k * ld] = -o;
-            lcp->M[k + (n + i) * ld] = o;
-            lcp->M[k + i * ld] = -o * p->bound[i];
-        }
-    for (int j = 0; j < p->n; j++) {
-        double u = p->own, next = 0.0;
-        for (int i = j; i >= 0 && u != 0.0; i--) {
-            for (int k = 0; k < 4; k++)
-                lcp->M[yield_index(p, i, k % 2) + (size_t)yield_index(p, j, k / 2) * ld] +=
-                    p->hardening * u;
-            const double before = p->recall[0] * u + p->recall[1] * next;
-            next = u;
-            u = before;
-        }
-        for (int sign = 0; sign < 2; sign++)
-            lcp->b[yield_index(p, j, sign)] += p->yield[j];
-    }
-}
-
-/* ---- Kwak's form (K4) -------------------------------------------------------------- */
-
-/* Where unknown k of the pivoted form stands in Kwak's: lambda+- and s+- in pairs. */
-static int kwak_place(const rb_contact_problem *p, int k)
-{
-    const int n = p->n, block = (k - n) / n;
-    return k < n || k >= delta_column(p) ? k
-                                         : n + 2 * n * (block / 2) + 2 * ((k - n) % n) + block % 2;
-}
-
-/* The principal pivot of the pivoted form on S_T: lambda+ is given and gamma+ follows
- * from it, gamma = S_T^-1 (lambda+ - the other columns - b), in the rows of lambda+ and
- * in all others. */
-static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    const int n = p->n, size = lcp->size;
-    const size_t length = (size_t)n, ld = (size_t)size;
-    double *own = lcp->M + length * ld;
-    rb_arena scratch = {0};
-    /* the columns of gamma; and gamma by the other unknowns and 1 */
-    double *gamma = rb_arena_doubles(&scratch, ld, length),
-           *solved = rb_arena_doubles(&scratch, length, ld + 1),
-           *S_T = rb_arena_doubles(&scratch, length, length),
-           *M = rb_arena_doubles(&scratch, ld, ld), *b = rb_arena_doubles(&scratch, ld, 1);
-    lapack_int *pivots = rb_arena_zeros(&scratch, length, sizeof *pivots);
-
-    if (scratch.failed)
-        return rb_arena_done(&scratch, RB_ENOMEM);
-    /* Right-hand sides of gamma = S_T^-1 (lambda+ - M_other z_other - b), for each unknown and 1.
-     */
-    memcpy(gamma, own, length * ld * sizeof *own);
-    for (int j = 0; j <= size; j++)
-        for (int i = 0; i < n; i++)
-            solved[(size_t)i + (size_t)j * length] = j >= n && j < 2 * n ? i == j - n
-                                                     : j < size ? -lcp->M[n + i + (size_t)j * ld]
-                                                                : -lcp->b[n + i];
-    for (size_t j = 0; j < length; j++)
-        memcpy(S_T + j * length, gamma + j * ld + n, length * sizeof *S_T);
-    memset(own, 0, length * ld * sizeof *own);
-    /* B = A F_TT of (K4) is S_T. */
-    const int fault = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, size + 1, S_T, n, pivots, solved, n);
-    if (fault != 0)
-        return rb_arena_done(&scratch, rb_lapack_status(fault));
-    /* gamma, as it is now known, goes into all other rows. */
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma, size, solved,
-                n, 1.0, lcp->M, size);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size, solved + length * ld, 1,
-                1.0, lcp->b, 1);
-    /* Unknowns and rows in Kwak's order: r_N, then lambda+ and lambda- of each element side by
-     * side. */
-    for (int i = 0; i < size; i++) {
-        const int row = kwak_place(p, i), is_gamma = i >= n && i < 2 * n;
-        const double *from = is_gamma ? solved + i - n : lcp->M + i;
-        const size_t step = is_gamma ? length : ld;
-        for (int j = 0; j < size; j++)
-            M[row + (size_t)kwak_place(p, j) * ld] = from[(size_t)j * step];
-        b[row] = is_gamma ? from[ld * step] : lcp->b[i];
-    }
-    memcpy(lcp->M, M, ld * ld * sizeof *M);
-    memcpy(lcp->b, b, ld * sizeof *b);
-    return rb_arena_done(&scratch, RB_OK);
+            p,
+            (border_row){rb_contact_xi_column(p), -xi_direction(lcp), force_N, force_T, p->force},
+            lcp);
 }
 
 /* ---- Both -------------------------------------------------------------------------- */
@@ -239,7 +128,7 @@ static void fill(int n, double value, double *x)
 /* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
 static void make_dimensionless(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
-    const int n = p->n, delta = delta_column(p), xi = xi_column(p);
+    const int n = p->n, delta = rb_contact_delta_column(p), xi = rb_contact_xi_column(p);
     const size_t length = (size_t)n, ld = (size_t)lcp->size;
     const double bound = rb_contact_friction_scale(p);
 
@@ -272,7 +161,7 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
                                 double xi0, rb_contact_lcp *lcp, rb_message *why)
 {
     const size_t n = (size_t)p->n,
-                 size = (size_t)(delta_column(p) + p->load_given + p->force_given);
+                 size = (size_t)(rb_contact_delta_column(p) + p->load_given + p->force_given);
     rb_arena scratch = {0};
 
     *lcp = (rb_contact_lcp){.size = (int)size,
@@ -293,9 +182,9 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
         pivoted_form(p, force_N, force_T, lcp);
     }
     if (s == RB_OK && p->yield)
-        add_yield(p, lcp);
+        rb_contact_lcp_add_yield(p, lcp);
     if (s == RB_OK && form == RB_LCP_KWAK)
-        s = kwak_form(p, lcp);
+        s = rb_contact_kwak_form(p, lcp);
     rb_arena_free(&scratch);
     if (s != RB_OK) {
         rb_contact_lcp_free(lcp);
@@ -310,7 +199,7 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
     for (size_t i = 0; i < n; i++) {
         lcp->b[i] -= lcp->delta0;
         if (p->load_given)
-            lcp->M[i + (size_t)delta_column(p) * size] = -1.0;
+            lcp->M[i + (size_t)rb_contact_delta_column(p) * size] = -1.0;
     }
     make_dimensionless(p, lcp);
     return RB_OK;
@@ -325,20 +214,21 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
 
     state->delta = lcp->delta0;
     if (p->load_given)
-        state->delta += lcp->z_scale[delta_column(p)] * z[delta_column(p)];
+        state->delta += lcp->z_scale[rb_contact_delta_column(p)] * z[rb_contact_delta_column(p)];
     state->xi = p->xi;
     if (p->force_given)
-        state->xi = lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
+        state->xi = lcp->xi0 + xi_direction(lcp) * lcp->z_scale[rb_contact_xi_column(p)] *
+                                   z[rb_contact_xi_column(p)];
     for (int i = 0; i < n; i++) {
         /* gamma: an unknown of the pivoted form, a row w = M z + b of Kwak's */
-        int plus = yield_index(p, i, 0), minus = yield_index(p, i, 1);
+        int plus = rb_contact_yield_index(p, i, 0), minus = rb_contact_yield_index(p, i, 1);
         double gamma = lcp->z_scale[n + i] * z[n + i];
         if (lcp->form == RB_LCP_KWAK) {
-            const int row = kwak_place(p, n + i);
+            const int row = rb_contact_kwak_place(p, n + i);
             gamma = lcp->w_scale[row] *
                     (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
-            plus = kwak_place(p, plus);
-            minus = kwak_place(p, minus);
+            plus = rb_contact_kwak_place(p, plus);
+            minus = rb_contact_kwak_place(p, minus);
         }
         state->p[i] = lcp->z_scale[i] * z[i];
         state->plastic[i] =

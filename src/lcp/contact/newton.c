@@ -227,3 +227,34 @@ rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_st
     free(ws.zone);
     return s;
 }
+
+/* ---- Completed to a state ----------------------------------------------------------- */
+
+/* What Newton has ended with, as s says.  On large contacts an element whose traction is
+ * rounding may come and go: a cycle that ends in a solution is one. */
+rb_status rb_contact_end_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                                rb_status s, rb_contact_state *state)
+{
+    if (s < 0)
+        return s;
+    state->solver = RB_SOLVER_NEWTON;
+    const rb_status t = rb_contact_complete(problem, 1, state);
+    s = t < 0 ? t : s;
+    /* GMRES ends at a tolerance of its own; for a smaller one the matrix solves alone */
+    if (s == RB_OK && !rb_contact_is_solved(s, problem, options, state) &&
+        rb_contact_dense_has_products(problem->op)) {
+        rb_contact_operator_add_products(problem->op, NULL);
+        s = rb_contact_complete(problem, 0, state);
+    }
+    if (s == RB_MAXITER && problem->rounding > 0.0 &&
+        rb_contact_is_solved(RB_OK, problem, options, state))
+        s = RB_OK;
+    return s;
+}
+
+rb_status rb_contact_by_newton(rb_contact_problem *problem, const rb_contact_options *options,
+                               int warm, rb_contact_state *state)
+{
+    rb_phase("contact by Newton's method");
+    return rb_contact_end_newton(problem, options, rb_contact_newton(problem, warm, state), state);
+}

@@ -115,67 +115,6 @@ void rb_contact_force_row(const rb_contact_problem *p, double *control_N, double
     }
 }
 
-rb_status rb_contact_set_yield(rb_contact_problem *p, double stress, double hardening)
-{
-    if (!p->yield)
-        p->yield = rb_alloc((size_t)p->n, 1);
-    if (!p->yield)
-        return RB_ENOMEM;
-    for (int i = 0; i < p->n; i++)
-        p->yield[i] = stress;
-    p->hardening = hardening;
-    return RB_OK;
-}
-
-void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, const int *zone,
-                        double *u)
-{
-    double next = 0.0, second = 0.0;
-
-    for (int i = p->n - 1; i >= 0; i--) {
-        const double size = !zone || zone[i] <= RB_ZONE_STICK ? fabs(plastic[i])
-                            : zone[i] == RB_ZONE_SLIP_POSITIVE || zone[i] == RB_ZONE_YIELD_POSITIVE
-                                ? -plastic[i]
-                                : plastic[i];
-        u[i] = p->recall[0] * next + p->recall[1] * second + p->own * size;
-        second = next;
-        next = u[i];
-    }
-}
-
-int rb_contact_slips_and_yields(const rb_contact_problem *p, const rb_contact_state *state, int i)
-{
-    return p->yield && state->plastic[i] != 0.0 &&
-           (state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE);
-}
-
-void rb_contact_set_plastic(const rb_contact_problem *p, rb_contact_state *state, double *u)
-{
-    double next = 0.0, second = 0.0;
-
-    for (int i = p->n - 1; i >= 0; i--) { /* upstream first */
-        const int zone = state->zone[i],
-                  positive = zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE;
-        const double before = p->recall[0] * next + p->recall[1] * second,
-                     against = positive ? -1.0 : 1.0;
-        double own = 0.0;
-        if (zone > RB_ZONE_SLIP_POSITIVE)
-            own = against * state->lambda[i];
-        else if (p->hardening != 0.0 && rb_contact_slips_and_yields(p, state, i))
-            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
-        state->plastic[i] = against * own;
-        second = next;
-        next = before + p->own * own;
-        if (u)
-            u[i] = next;
-    }
-}
-
-double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
-{
-    return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;
-}
-
 int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contact_state *state)
 {
     return problem->step_limit == 0 || state->iterations < problem->step_limit ||

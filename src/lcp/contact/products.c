@@ -1,7 +1,7 @@
 /* The operator with products only: the linear problems for given zones are solved by
  * GMRES. On equal elements the preconditioner is the inverse for an infinite line; about
  * ten products are needed for any number of elements. */
-#include "lcp/contact/internal.h"
+#include "lcp/contact/gmres.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -82,7 +82,8 @@ rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contac
     const motion m = {gap, gap + n, gap + 2 * n};
     memset(v, 0, sizeof *v);
     rb_contact_kinematics(problem, state, m.gap, m.lambda);
-    rb_contact_yielded(problem, state->plastic, NULL, m.yielded);
+    if (problem->yield)
+        rb_contact_yielded(problem, state->plastic, NULL, m.yielded);
     /* Given load and force, relative to themselves. */
     double worst = 0.0;
 

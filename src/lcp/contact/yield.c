@@ -3,7 +3,7 @@
  * element's law known the problem is linear, as in newton.c: solved by GMRES where there
  * are products, else by a matrix that is assembled again in each step, because the rows
  * of elements that yield hold those of all upstream. */
-#include "lcp/contact/internal.h"
+#include "lcp/contact/gmres.h"
 
 #include <cblas.h>
 #include <lapacke.h>

@@ -151,29 +151,6 @@ static int pivot(lemke *l, int row, int entering)
     return leaving;
 }
 
-rb_status rb_lcp_fail_ray(rb_lcp_info *info, const lcp_posed *posed, int entering, double z0,
-                          double *direction)
-{
-    const int n = posed->M.n;
-    const char letter = entering < n ? 'w' : 'z';
-    if (rb_norm_inf((size_t)n, direction) == 0.0)
-        return rb_fail(&info->msg, RB_NUMERICAL,
-                       "lcp: rounding errors have led the path back to its beginning after %d "
-                       "pivot%s",
-                       info->iters, rb_plural(info->iters));
-    info->ray_variable = entering;
-    if (rb_lcp_excludes(&posed->M, posed->q, posed->lower, posed->upper, NULL, direction))
-        return rb_fail(&info->msg, RB_NO_SOLUTION,
-                       "lcp: no solution: the path ends after pivot %d on a ray of %c(%d) which "
-                       "proves that no z "
-                       "within its bounds has the signs of w",
-                       info->iters, letter, entering % n + 1);
-    return rb_fail(&info->msg, RB_RAY,
-                   "lcp: secondary ray after %d pivot%s: no row blocks %c(%d); z0 = %g; this does "
-                   "not prove that there is no solution",
-                   info->iters, rb_plural(info->iters), letter, entering % n + 1, z0);
-}
-
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start)
 {
     const int most = opt->max_iters ? opt->max_iters : 50 * n + 1000;
@@ -207,16 +184,10 @@ static rb_status fail_memory(lemke *l)
                    8e-6 * n * (n + 2.0));
 }
 
-/* Entries of a generic cover differ by this part: enough to make the paths of Murty and
- * Fathi short, and little enough for other paths to stay as long as with ones. */
-static const double GENERIC = 0.0625;
-
-static void set_generic_cover(lemke *l)
+static void take_generic_cover(lemke *l)
 {
     double *cover = l->weight + l->n + 1;
-    unsigned long long seed = 20260101;
-    for (int i = 0; i < l->n; i++)
-        cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
+    rb_lcp_generic_cover(l->n, cover);
     l->data.cover = cover;
     l->work.ones = 0;
 }
@@ -229,13 +200,14 @@ static rb_status begin_again(lemke *l)
     l->checked = l->rebuilt = l->info->iters;
     l->info->ray_variable = -1;
     l->info->msg.text[0] = '\0';
-    set_generic_cover(l);
+    take_generic_cover(l);
     rb_lcp_tableau_free(&l->t);
     return rb_lcp_tableau_create(&l->data, &l->t) == RB_OK ? RB_OK : fail_memory(l);
 }
 
-/* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
- * leaves or vanishes (solved) or nothing blocks the entering variable (secondary ray). */
+/* Lemke's path: z0 enters and makes w = q + M z + d z0 >= 0; then the complement of what has left
+ * enters, until z0 leaves or vanishes (solved) or nothing blocks the entering variable (secondary
+ * ray). */
 static rb_status follow_path(void *state)
 {
     lemke *l = state;
@@ -265,9 +237,12 @@ static rb_status follow_path(void *state)
         l->start = l->refreshed = lemke_z0(l);
     }
     while (!rb_lcp_pauses(&l->work)) {
+        /* The complement of what has left enters: w_i after z_i, z_i after w_i, so that z'w stays
+         * zero. */
         const int entering = rb_lcp_complement(l->n, l->leaving);
         rb_status s = rb_lcp_check_limits(l->info, &l->posed.opt, l->n, l->task->began);
         if (s == RB_OK) {
+            /* It grows until a basic variable falls to zero: that one blocks it. */
             driving_column(l, entering);
             row = blocking_row(l);
             /* A pivot near rounding and the absence of one are believed only when the
@@ -284,12 +259,14 @@ static rb_status follow_path(void *state)
                 s = RB_OK;
         }
         if (s == RB_OK && row < 0) {
+            /* Nothing blocks it: z moves along a ray, by so much per unit of what enters. */
             for (int i = 0; i < l->n; i++) {
                 const int at = l->t.place[l->n + i];
                 l->other[i] = at >= 0 ? l->a[at] : (double)(entering == l->n + i);
             }
             s = rb_lcp_fail_ray(l->info, &l->posed, entering, lemke_z0(l), l->other);
         }
+        /* A path with ones that is long or fails is left for one with a generic cover. */
         if (l->short_path &&
             (s == RB_RAY || s == RB_NUMERICAL || l->info->iters >= l->short_path)) {
             s = begin_again(l);
@@ -297,10 +274,14 @@ static rb_status follow_path(void *state)
         }
         if (s != RB_OK)
             return s;
+        /* Entering and blocking variable change places.  When z0 has left, w = M z + q: z solves
+         * the problem. */
         l->leaving = pivot(l, row, entering);
         l->work.used += rb_lcp_work_of_pivot(l->n);
         if (l->leaving == z0)
             return RB_OK;
+        /* Rounding errors of the pivots are taken out, and z0 that has vanished is as good as one
+         * that has left. */
         s = rb_lcp_lemke_keep_accurate(l);
         if (s != RB_OK || lemke_z0(l) <= VANISHED * l->start)
             return s;
@@ -309,26 +290,6 @@ static rb_status follow_path(void *state)
 }
 
 /* ---- All together ------------------------------------------------------------------ */
-
-/* Pivots on the path with ones before a generic cover is taken, where the least entry of q ties:
- * where that path is short it is often much the shorter one, and else so few cost little. */
-static int few_pivots(int n)
-{
-    return 4 + n / 16;
-}
-
-/* The least entry of q ties with another one within this part of it. */
-static const double SAME = 1e-6;
-
-static int least_ties(int n, const double *q)
-{
-    double least = INFINITY, next = INFINITY;
-    for (int i = 0; i < n; i++) {
-        next = fmin(next, fmax(least, q[i]));
-        least = fmin(least, q[i]);
-    }
-    return next - least <= SAME * fabs(least);
-}
 
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
@@ -359,10 +320,10 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     }
     if (s == RB_OK) {
         l->work.ones = !l->data.cover;
-        if (l->work.ones && l->task->generic == LCP_GENERIC_FOR_TIES && least_ties(n, l->data.p.q))
-            l->short_path = few_pivots(n);
+        if (l->work.ones && l->task->generic == LCP_GENERIC_FOR_TIES)
+            l->short_path = rb_lcp_pivots_with_ones(n, l->data.p.q);
         if (l->work.ones && l->task->generic == LCP_GENERIC)
-            set_generic_cover(l);
+            take_generic_cover(l);
     }
     return s;
 }

@@ -34,10 +34,18 @@ typedef struct {
                           it stands */
 } lcp_scale;
 
-/* Ruiz' equilibration, which begins from scales that balance [M q]; always: also where M
- * is balanced, because q is not.  RB_ENOMEM. */
+/* Ones where the largest entries of rows and columns are alike, otherwise by equilibration; always:
+ * also where M is balanced, because q is not.  RB_ENOMEM. */
 rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, lcp_scale *s);
 void rb_lcp_scale_free(lcp_scale *s);
+
+/* The largest |r_i M_ij c_j| of each row and column, n each; r, c NULL: ones. */
+void rb_lcp_largest_entries(const lcp_matrix *M, const double *r, const double *c, double *row,
+                            double *col);
+void rb_lcp_extremes(int n, const double *x, double *least, double *most);
+/* equilibrate.c: r and c (n each); row, col: scratch, n each.  always: q is balanced to rest. */
+void rb_lcp_equilibrate(const lcp_matrix *M, const double *q, int always, double *r, double *c,
+                        double *row, double *col);
 
 /* The problem that a method solves: the given one, or in the scale R M C, R q and what
  * options and boxes hold, where that is needed.  Members that are NULL for the caller are
@@ -61,11 +69,13 @@ typedef struct {
  * left out; the residual is that of the given problem.  RB_ENOMEM; free in any case. */
 rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
                       const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s);
+/* posed.c: where the scale is needed, which is known.  RB_ENOMEM. */
+rb_status rb_lcp_pose_scaled(lcp_posed *s);
 void rb_lcp_posed_free(lcp_posed *s);
 /* z of the problem becomes that of the caller's. */
 void rb_lcp_scale_back(const lcp_posed *s, double *z);
 
-/* info->res, info->scaled and info->row of z, as rb_lcp_scaled_residual has them.
+/* residual.c: info->res, info->scaled and info->row of z, as rb_lcp_scaled_residual has them.
  * RB_ENOMEM. */
 rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const double *q,
                          const double *lower, const double *upper, const double *z,

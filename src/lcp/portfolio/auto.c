@@ -6,7 +6,7 @@
  * own operations reach its share of an allowance, which grows from round to round.
  * Operations are counted by formulas, so that the same problem is always solved in the
  * same way. */
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/methods.h"
 #include "base/sizes.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Equilibria of bimatrix games by the method of Lemke and Howson (SIAM Journal 12, 1964),
  * in the form with two tableaus (Cottle, Pang, Stone, section 4.4). */
 #include "lcp/portfolio/game.h"
+#include "lcp/portfolio/methods.h"
 
 #include <cblas.h>
 #include <limits.h>

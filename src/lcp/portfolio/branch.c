@@ -3,6 +3,7 @@
  * that remain minimises the sum of z and w; where it has no solution, the choice has none.  So
  * the search ends with a solution, or with the proof that there is none. */
 #include "lcp/portfolio/linear.h"
+#include "lcp/portfolio/methods.h"
 
 #include <lapacke.h>
 #include <math.h>

@@ -2,7 +2,7 @@
  * are joined to aggregates, and the basic variables of the coarser problem, which itself
  * starts from a coarser one, are the first basic variables of the finer problem. */
 
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/methods.h"
 #include "base/sizes.h"
 #include <math.h>
 #include <stdlib.h>

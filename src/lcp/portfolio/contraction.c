@@ -1,6 +1,6 @@
 /* Projected Gauss-Seidel sweeps where rows are dominated by their diagonal: a contraction in the
  * largest norm, which also proves that there is one solution. */
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/methods.h"
 
 #include <float.h>
 #include <math.h>

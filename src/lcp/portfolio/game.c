@@ -1,7 +1,7 @@
 /* Complementarity problems that are bimatrix games: M = [0 A; B' 0] with positive A and
  * B, q < 0.  Lemke's path for covering vectors without a zero ends on a ray there; Lemke
  * and Howson's does not (Cottle, Pang, Stone, section 4.4). */
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/methods.h"
 
 #include <math.h>
 #include <string.h>

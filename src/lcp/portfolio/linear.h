@@ -2,6 +2,7 @@
 #ifndef LCP_LINEAR_H
 #define LCP_LINEAR_H
 
+#include "lcp/proof/farkas.h"
 #include "lcp/lemke/lemke.h"
 
 /* The inequalities that remain of a problem when of some pairs it is fixed which of z_i and

@@ -1,7 +1,7 @@
 /* Block principal pivoting (Judice and Pires, Computers and Operations Research 21,
  * 1994): Newton's method on mid(z - lower, M z + q, z - upper) = 0, guarded so that it ends
  * for every P-matrix. */
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/methods.h"
 #include "base/sizes.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Proof of a solution: a sign pattern and a linear system, both in floating-point arithmetic with
  * bounds (docs/proof.md).  What is computed only guides the proof; each inequality that counts
  * fails for a NaN. */
+#include "lcp/proof/farkas.h"
 #include "lcp/lemke/lemke.h"
 #include "lcp/proof/bounds.h"
 

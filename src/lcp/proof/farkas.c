@@ -3,7 +3,7 @@
  * not be positive: outward rounding never shows that of one that is zero, as they are for Lemke's
  * rays and for vertices of linear programs.  Such signs are computed without rounding for whole
  * numbers near a multiple of y, or y is enclosed as the solution of these equations. */
-#include "lcp/lemke/farkas.h"
+#include "lcp/proof/farkas.h"
 #include "lcp/lemke/lemke.h"
 #include "lcp/proof/bounds.h"
 
