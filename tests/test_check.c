@@ -108,6 +108,9 @@ TEST(results_are_valid)
         "--support halfplane --layer-thickness 2 --layer-base smooth --base-young 20000 "
         "--contact-elements 15 --approach 0.04 --derivatives=all",
         "--support halfplane --load 100 --mesh uniform --creep 1e-3" STEADY,
+        /* fewer than the mesh has that would follow from the rest */
+        "--support halfplane --load 100 --mesh uniform --slip-operator second --creep 1e-3 "
+        "--contact-elements 5" STEADY,
         "--support arc --load 100 --mesh fitted --contact-elements 60 --creep 1e-3" STEADY,
         "--support hub --contact-elements 60 --mu 0.05 --poisson 0 --mesh aligned --tol 1e-8 "
         "--approach 0.01 --shift 1e-4 --similar --radius-b 60 --support-b hub",

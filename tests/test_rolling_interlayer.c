@@ -44,6 +44,27 @@ TEST(brushes_meet_their_law)
         }
 }
 
+/* Brushes that nowhere slip, under an approach: the N elements in contact have q = -xi k h/L_T from
+ * the leading one on, by products as by matrices.  Residuals are fractions of the pressure that
+ * the layer bears, not of Hertz's of the same approach, 4e5 times as large. */
+TEST(brushes_under_an_approach_meet_their_law)
+{
+    static const int n[] = {60, 300};
+
+    for (int k = 0; k < 2; k++) {
+        const rb_rolling_case rc = rolling_case(
+            "support halfplane young 1e6 poisson 0.3 similar radius 50 gap parabola mu 1000 "
+            "interlayer-normal 0.01 interlayer-tangential 0.01 formulation steady creep 1e-5 "
+            "approach 0.001 mesh uniform contact-elements %d",
+            n[k]);
+        OWNED(rb_rolling_solution) it = solved(&rc);
+        const double N = it.contact, h = it.h[n[k] / 2];
+        CHECK_REL(it.tangential_load, -1e-5 * h * h * N * (N + 1.0) / 2.0 / 0.01, 3e-3, "n = %d",
+                  n[k]);
+        CHECK_REL(it.max_pressure, 0.1, 2e-3, "n = %d: p0", n[k]);
+    }
+}
+
 /* Half-planes with a tangential layer: slope of the creep curve over Carter's,
  * Lam = L_T E* / a. */
 static rb_rolling_case layered(double lam, int n, double ratio)

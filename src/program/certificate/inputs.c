@@ -121,7 +121,8 @@ static rb_status set_inputs(const json_t *root, const json_t *now, int first, rb
 enum { MOST_OUTER = 20000 };
 
 /* What follows from others, such as the mesh of steady rolling or an option of B, is given as well
- * where it is another one: hence more rounds than one. */
+ * where it is another one: hence more rounds than one.  What follows may even be refused where
+ * what was given was not, as are so few elements on the mesh that follows. */
 rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_case *words,
                                 rb_message *why)
 {
@@ -131,11 +132,12 @@ rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_
     const char *key;
     rb_message reason = {.text = ""};
 
-    for (int round = 0; round < 3 && s == RB_OK && !json_equal(now, inputs); round++) {
+    for (int round = 0; round < 3 && s != RB_ENOMEM && (s != RB_OK || !json_equal(now, inputs));
+         round++) {
         s = set_inputs(root, now, round == 0, words, &reason);
         json_decref(now);
         now = rb_report_json_inputs(words);
-        if (s == RB_OK && !now)
+        if (!now)
             s = RB_ENOMEM;
     }
     if (s != RB_OK && s != RB_ENOMEM)

@@ -285,6 +285,9 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
                : hertz || (isnan(d.load) && has_radius)
                    ? d.modulus * d.half_width / (2.0 * d.radius)
                    : 2.0 * P / (M_PI * d.half_width);
+    /* what lies between the bodies bears no more where nothing else gives way */
+    if (isnan(d.load) && rc->interlayer_normal > 0.0)
+        d.stress = fmin(d.stress, down / rc->interlayer_normal);
     d.strain = has_radius ? d.half_width / d.radius : 2.0 * d.stress / d.modulus;
     return d;
 }
