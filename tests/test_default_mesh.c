@@ -103,7 +103,8 @@ TEST(many_elements_never_give_a_larger_error)
         "similar yes young 1000 poisson 0.3 layer-thickness 0.05 base-young 70000 base-poisson 0.3",
         "similar yes young 1000 poisson 0.3 relaxation-time 1e-3 relaxation-ratio 2 speed 100",
         "young 70000 poisson 0.33 young-b 210000 poisson-b 0.28 interlayer-normal 1e-7 "
-        "interlayer-tangential 3e-7"};
+        "interlayer-tangential 3e-7",
+        "support hub young 5 poisson 0.48 cover-thickness 0.5"};
     enum { ROWS = sizeof rows / sizeof *rows };
     static const int sizes[] = {150, 300, 600, 1200};
 

@@ -78,8 +78,6 @@ int main(int argc, char **argv)
         for (int m = 0; m < 3; m++) {
             const int n = argc > 1 ? atoi(argv[k + 1]) : usual[k];
             double creepage[3] = {NAN, NAN, NAN}, spent[3] = {NAN, NAN, NAN};
-            if (n > 960 && meshes[m].mesh == RB_MESH_FITTED)
-                continue; /* a matrix in either case */
             for (int how = n > 960 ? BY_WAVES : BY_ELEMENTS; how <= HALFPLANE; how++)
                 spent[how] = seconds(n, meshes[m].mesh, (way)how, &creepage[how]);
             printf("| %s | %s | ", row_count(n).text, meshes[m].name);

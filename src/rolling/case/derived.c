@@ -393,13 +393,12 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
                       rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
 }
 
-/* Elements of any lengths: flat bodies with nothing between them, rolling steadily.
+/* Elements of any lengths, rolling steadily.
  * From mu beta = 1 on many steps of Newton fail, and those of Lemke want a matrix. */
 static int suits_fitted_products(const rb_rolling_case *rc)
 {
     return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM &&
-           rc->yield_stress == 0.0 && rb_rolling_mu_beta(rc) < 1.0 &&
-           rb_rolling_can(rc, RB_BODY_FLAT);
+           rc->yield_stress == 0.0 && rb_rolling_mu_beta(rc) < 1.0;
 }
 
 static int suits_transforms(const rb_rolling_case *rc)
