@@ -6,6 +6,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/solution.h"
 #include "solved.h"

@@ -2,6 +2,7 @@
  * and the start of a fine solution from a coarse one. */
 #include "cases.h"
 #include "solved.h"
+#include "rolling/solve/coarse.h"
 #include "rolling/study/internal.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/zone.h"

@@ -69,24 +69,28 @@ static const struct {
     const char *part, *headers;
 } parts[] = {
     {"rolling/case", " body/body body/gap body/internal body/mesh history/history rolling "
-                     "solve/law solve/notes solve/pressed solve/zone "},
-    {"rolling/body", " case/derived case/inputs case/internal solve/model solve/variant "},
+                     "solve/law solve/notes solve/pressed solve/resolution solve/zone "},
+    {"rolling/body", " case/check case/derived case/inputs case/internal solve/model "
+                     "solve/variant "},
     {"rolling/solve", " body/body body/far_field body/former_place body/gap body/internal "
                       "body/interpolant body/mesh body/perturbation case/derived "
-                      "case/inputs case/internal "
+                      "case/check case/ellipse case/inputs case/internal "
                       "history/history study/study "},
     {"rolling/history",
      " body/body body/former_place body/internal body/mesh case/derived "
-     "case/inputs case/internal solve/columns solve/cycle solve/field solve/formulation "
-     "solve/heat solve/law solve/model solve/patches solve/power "
-     "solve/results solve/solution solve/stress solve/variant solve/zone "},
-    {"rolling/study", " body/body body/mesh case/derived case/internal history/history "
-                      "history/internal history/wear "
-                      "solve/columns solve/formulation solve/law solve/model solve/notes "
-                      "solve/patches solve/power solve/solution solve/stress solve/zone "},
+     "case/check case/inputs case/internal solve/columns solve/cycle solve/field "
+     "solve/formulation solve/heat solve/law solve/law_iteration solve/model solve/patches "
+     "solve/power solve/resolution solve/results solve/solution solve/stress solve/variant "
+     "solve/zone "},
+    {"rolling/study", " body/body body/mesh case/check case/derived case/ellipse case/internal "
+                      "history/history history/internal history/wear "
+                      "solve/columns solve/fit solve/formulation solve/law solve/law_iteration "
+                      "solve/model solve/notes solve/patches solve/resolution solve/power "
+                      "solve/solution solve/stress solve/zone "},
     {"rolling", " body/body body/gap case/derived history/history history/wear "
-                "solve/formulation "
-                "solve/model solve/notes solve/pressed solve/results solve/solution "
+                "solve/formulation solve/law_iteration "
+                "solve/model solve/notes solve/pressed solve/resolution solve/results "
+                "solve/solution "
                 "solve/stress solve/temperature solve/variant solve/zone study/study "},
 };
 

@@ -6,6 +6,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/body/body.h"
 #include "rolling/body/gap.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/pressed.h"

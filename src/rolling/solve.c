@@ -3,6 +3,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/model.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/zone.h"
 

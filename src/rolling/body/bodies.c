@@ -4,8 +4,6 @@
 #include "rolling/case/internal.h"
 #include "rolling/solve/model.h"
 
-#include <cblas.h>
-#include <gsl/gsl_math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,30 +58,6 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_pl
             : wanted == NEAR && kind->near
                 ? kind->near
                 : kind->flexibility)(rc, plan, body, mesh, one_body, why);
-}
-
-rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
-                                       double *w, double *x, double *h, rb_message *why)
-{
-    const rb_rolling_case *rc = model->rc;
-    rb_rolling_body_flexibility one_body = {.system = NULL};
-    rb_bem_flexibility *f = &one_body.f;
-    const rb_status s = body_flexibility(
-        rc, &model->plan, of_b ? &rc->b : &rc->a, &model->mesh,
-        rb_rolling_is_large(rc, &model->mesh) ? BY_TRANSFORMS : WHOLE, &one_body, why);
-
-    if (s == RB_OK) {
-        rb_bem_flexibility_apply(f, r, w);
-        cblas_daxpy(2 * f->m, 1.0, f->w0, 1, w, 1);
-    }
-    for (int i = 0; s == RB_OK && i < f->m && x; i++) {
-        x[i] = f->x[i];
-        h[i] = f->h[i];
-    }
-    rb_bem_flexibility_free(f);
-    rb_bem_system_free(one_body.system);
-    free(one_body.memory);
-    return s;
 }
 
 /* f: that of both bodies together; one_body: what else they have made. */
@@ -189,34 +163,6 @@ rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far
                : s;
 }
 
-int rb_rolling_bodies_stretch(const rb_rolling_case *rc, const rb_rolling_mesh *from,
-                              const rb_rolling_mesh *to, rb_rolling_bodies *bodies, double *scale,
-                              double *along)
-{
-    static const double ROUNDING = 1e-12; /* of the ends */
-    const int n = from->n;
-    double K = 0.0;
-
-    if (!bodies->F || bodies->transforms.n > 0 || to->n != n || rc->period > 0.0 ||
-        rc->normals != RB_BEM_NORMALS_OBSTACLE || rc->interlayer_normal != 0.0 ||
-        rc->interlayer_tangential != 0.0 ||
-        !rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
-        return 0;
-    const double width = to->ends[n] - to->ends[0];
-    *scale = width / (from->ends[n] - from->ends[0]);
-    for (int i = 0; i < n + 2; i++) {
-        const double end = to->ends[0] + *scale * (from->ends[i] - from->ends[0]);
-        if (!(fabs(to->ends[i] - end) <= ROUNDING * width))
-            return 0;
-    }
-    for (int b = 0; b < 1 + rc->elastic_b; b++) { /* (F1) */
-        const rb_bem_material m = rb_rolling_material(rc, b ? &rc->b : &rc->a);
-        K += (1.0 - m.poisson) / (M_PI * m.shear);
-    }
-    *along = -K * log(*scale);
-    return rb_bem_flexibility_stretch(&bodies->f, to->ends, *scale, *along) == RB_OK;
-}
-
 rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                         const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
                                         rb_message *why)
@@ -234,20 +180,4 @@ rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_roll
     return s == RB_ENOMEM
                ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
                : s;
-}
-
-rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
-                                  double *w)
-{
-    const int n = bodies->f.n;
-    double *r = rb_alloc(2 * (size_t)n, 1);
-
-    if (!r)
-        return RB_ENOMEM;
-    memcpy(r, p, (size_t)n * sizeof *r);
-    memcpy(r + n, q, (size_t)n * sizeof *r);
-    rb_bem_flexibility_apply(&bodies->f, r, w);
-    cblas_daxpy(2 * bodies->f.m, 1.0, bodies->f.w0, 1, w, 1);
-    free(r);
-    return RB_OK;
 }

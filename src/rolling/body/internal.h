@@ -96,7 +96,7 @@ rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *option
 
 /* ---- body.c --------------------------------------------------------------------- */
 
-/* Checks a body.  RB_EINVAL: invalid values.  which: "", or "-b" of body B. */
+/* body_check.c: checks a body.  RB_EINVAL: invalid values.  which: "", or "-b" of body B. */
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
                                 const char *which, int plane_allowed, rb_message *why);
 
@@ -115,7 +115,7 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling
 rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory);
 void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 
-/* ---- bodies.c ------------------------------------------------------------------- */
+/* ---- bodies.c, displacement.c, stretch.c ----------------------------------------- */
 
 /* Builds the flexibility of A or B anew: w = w0 + F r (2m) of that body in its own frame, and x and
  * h of its elements (m; NULL: not wanted). */

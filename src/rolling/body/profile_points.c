@@ -3,6 +3,7 @@
  * gap, which a cubic spline keeps continuous. */
 #include "rolling/body/interpolant.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 
 #include <gsl/gsl_math.h>

@@ -1,6 +1,7 @@
 /* A case: its defaults, and which numbers go together. */
 #include "rolling/body/internal.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/law.h"
 

@@ -1,6 +1,7 @@
 /* Hertz's ellipse of a wheel whose surfaces are curved across the rolling direction, too, and the
  * strip through its middle (E2). */
 #include "rolling/body/body.h"
+#include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/pressed.h"
 

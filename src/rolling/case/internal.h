@@ -3,15 +3,29 @@
 #define ROLLBEM_ROLLING_CASE_INTERNAL_H
 
 #include "rolling/case/derived.h"
-#include "rolling/history/history.h"
 
+#include <math.h>
+
+/* (1 - nu^2)/E of a half-plane, in plane stress 1/E, and E*: 1/E* is the sum of both bodies'. */
+double rb_rolling_compliance(rb_bem_material material);
+double rb_rolling_modulus(const rb_rolling_case *rc);
+/* rb_rolling_contact_half_width where Hertz's formula does not hold (half_width.c). */
+double rb_rolling_half_width_beyond_hertz(const rb_rolling_case *rc, double load);
+/* A contact is no longer than its period. */
+static inline double rb_rolling_within_period(const rb_rolling_case *rc, double half_width)
+{
+    return rc->period > 0.0 ? fmin(half_width, 0.5 * rc->period) : half_width;
+}
 /* 1 if the boundary of wheels outside the contact is finer than needed for finding the
  * contact; the second function sets the plan to the default boundary. */
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
 /* 1: a bulk stress is given; and the strain along the surface that it makes in A less that in B
  * (U1): displacements differ by so much times x; and the larger of both, without its sign. */
-int rb_rolling_is_strained(const rb_rolling_case *rc);
+static inline int rb_rolling_is_strained(const rb_rolling_case *rc)
+{
+    return rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0;
+}
 double rb_rolling_bulk_strain(const rb_rolling_case *rc);
 double rb_rolling_largest_bulk_strain(const rb_rolling_case *rc);
 /* 1: load, approach, half-width, largest pressure or the load of an ellipse; 0: approach = R/2. */
@@ -48,31 +62,5 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc);
  * material.  NAN: neither body has a layer, cover or rim. */
 double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
                          const char **what);
-
-/* ---- Ellipses (E2, E3) ---------------------------------------------------------- */
-
-/* 1: rolls steadily on an ellipse between alike bodies under one coefficient of friction; and the
- * force of all of it at the creepage xi R_eq/(mu a) (E3).  kalker: NAN where his table ends. */
-int rb_rolling_ellipse_slides_alike(const rb_rolling_case *rc);
-void rb_rolling_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
-                               double *kalker);
-/* NAN where there is none; of the strips that the case asks for, `strips` is set by
- * rb_rolling_solve_strips. */
-void rb_rolling_set_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
-                                   double *kalker);
-
-/* ---- Checks --------------------------------------------------------------------- */
-
-/* Checks the case of a program before its rows, which rb_rolling_program_check checks.  A program
- * of no rows: rb_rolling_case_check. */
-rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
-                                        const rb_rolling_case *rc, rb_message *why);
-
-/* Checks the numbers of a case: RB_EINVAL "young: expected a number > 0, got -1".  What
- * has its default is not given. */
-rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
-                                  rb_message *why);
-/* Checks a number against the range of the option with this name. */
-rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
 
 #endif

@@ -1,6 +1,7 @@
 /* The options of a case, each once: everything that reads, shows or checks them is made
  * from this table. */
 #include "rolling/body/internal.h"
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/case/options.h"
 

@@ -1,4 +1,5 @@
 /* A case made from options: set by name, resolved, checked. */
+#include "rolling/case/check.h"
 #include "rolling/case/words.h"
 #include "rolling/case/rubber.h"
 #include "base/units.h"
@@ -9,6 +10,7 @@
 #include "rolling/history/history.h"
 #include "rolling/solve/notes.h"
 #include "rolling/solve/pressed.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 
 #include <math.h>

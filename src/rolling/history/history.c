@@ -2,11 +2,13 @@
  * increments and transient rolling (theory.md 4.2). */
 #include "rolling/body/internal.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/history/row.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/stress.h"
 #include "rolling/solve/variant.h"
 #include "rolling/solve/zone.h"

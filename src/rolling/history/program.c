@@ -1,4 +1,5 @@
 /* The program of a history: its columns, and the case of each of its steps. */
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/history/history.h"
 #include "rolling/history/internal.h"

@@ -4,9 +4,11 @@
 #include "rolling/case/derived.h"
 #include "rolling/history/row.h"
 #include "rolling/solve/formulation.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/power.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
  * second-order slip operator has its second order (theory-rolling.md 4.7). */
 #include "base/sizes.h"
 #include "rolling/body/mesh.h"
+#include "rolling/solve/fit.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/zone.h"

@@ -1,8 +1,12 @@
 /* A solution on a coarser mesh is the start on a finer one, so that the number of Newton
  * steps does not grow. */
 #include "rolling/case/derived.h"
+#include "rolling/solve/coarse.h"
+#include "rolling/solve/formulation.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
-#include "rolling/solve/zone.h"
+
+#include <stdlib.h>
 
 /* The coarsest mesh, which starts cold, has fewer elements than any that starts from another one.
  */
@@ -85,4 +89,46 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
     }
     fine->delta = coarse->delta;
     fine->xi = coarse->xi;
+}
+
+void rb_rolling_start_near(const rb_rolling_mesh *old_mesh, const rb_contact_state *old,
+                           const double *bound, rb_rolling_model *model)
+{
+    if (model->rc->mesh == RB_MESH_FITTED && old->n == model->state.n)
+        rb_contact_copy_start(old, &model->state);
+    else
+        rb_rolling_start_from(model->rc, old_mesh, old, &model->mesh, &model->state);
+    rb_rolling_follow_friction(old_mesh, bound, model);
+}
+
+rb_status rb_rolling_start_from_coarse(rb_rolling_model *model, rb_message *why)
+{
+    const double *ends = model->mesh.ends;
+    rb_rolling_plan fewer = model->plan;
+    rb_rolling_model coarse;
+    rb_rolling_mesh mesh;
+
+    fewer.elements = rb_rolling_coarse_elements(model->mesh.n);
+    rb_status s = rb_rolling_model_begin(model->rc, &fewer, &coarse, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n], &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(&coarse, &mesh, why);
+    if (s >= 0 && coarse.state.p)
+        rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh, &model->state);
+    if (s == RB_OK) {
+        double *bound = rb_rolling_friction_of(&coarse);
+        rb_rolling_follow_friction(&coarse.mesh, bound, model);
+        free(bound);
+    }
+    model->iterations += coarse.iterations;
+    model->state.refused_at = coarse.state.refused_at;
+    /* more elements would be given up, too */
+    const int gave_up = s != RB_ZONE && rb_rolling_gave_up(&coarse);
+    if (gave_up) {
+        model->problem.step_limit = coarse.problem.step_limit;
+        model->state.status = s;
+    }
+    rb_rolling_model_free(&coarse);
+    return s < 0 || gave_up ? s : RB_OK;
 }

@@ -2,6 +2,7 @@
  * free-rolling creepage. */
 #include "rolling/body/far_field.h"
 #include "rolling/case/internal.h"
+#include "rolling/solve/fit.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/solution.h"

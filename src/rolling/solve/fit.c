@@ -3,6 +3,7 @@
 #include "rolling/body/far_field.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/internal.h"
+#include "rolling/solve/fit.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/zone.h"

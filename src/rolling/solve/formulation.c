@@ -24,6 +24,7 @@ static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodie
     static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
     const double t = 0.0740956;
 
+    /* At rest and in a step A = I; rolling steadily I - S, the value of one element upstream. */
     *A = (rb_rolling_kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
     if (!A->differences || rc->slip_operator == RB_SLIP_UPSTREAM) {
         A->stencil[1] = 1.0;
@@ -31,6 +32,7 @@ static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodie
         memcpy(A->local, A->stencil, sizeof A->local);
         return RB_OK;
     }
+    /* Second order needs the displacements just outside of the contact, too. */
     A->stencil[0] = (1.0 - t) / 4.0;
     A->stencil[1] = (3.0 + 3.0 * t) / 4.0;
     A->stencil[2] = -(5.0 + 3.0 * t) / 4.0;
@@ -83,9 +85,10 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
     return s;
 }
 
-/* ---- What moves the surfaces ------------------------------------------------------- */
+/* ---- Gaps and slips without tractions ------------------------------------------------------- */
 
-/* d_T and e_T (K2), and the yield stress of what has yielded before (Y1). */
+/* d_T and e_T of (K2): what the slips are without tractions and motion, and per unit of xi, by the
+ * formulation (4.2); and the yield stress of what has yielded before (Y1). */
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, rb_contact_problem *p)
 {
@@ -124,7 +127,7 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc)
 }
 
 /* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
- * the load: under approach control an estimate, which model.c corrects after a solve. */
+ * the load: under approach control an estimate, which build.c corrects after a solve. */
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
 {
     const rb_rolling_derived d = rb_rolling_derive(rc);
@@ -169,31 +172,24 @@ void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bo
     p->rounding = 64.0 * DBL_EPSILON * unit.reach;
 }
 
-/* p: allocated. */
+/* The arrays of (K1) to (K3), of a problem that is allocated. */
 static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_rolling_bodies *bodies, const rb_rolling_past *past,
                               rb_contact_problem *p, rb_message *why)
 {
-    const int rolls = rc->formulation == RB_STEADY,
-              second = rolls && rc->slip_operator == RB_SLIP_SECOND;
-
     if (rc->yield_stress > 0.0) {
-        /* How far the interface has yielded where the material comes from (Y1): steadily
-         * rolled u follows the slip by the difference that the local part of F_TT has
-         * (theory-rolling.md 4.10); in a step it begins with what the past has left. */
-        p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
-        p->recall[1] = second ? -1.0 / 3.0 : 0.0;
-        p->own = second ? 2.0 / 3.0 : 1.0;
-        if (rb_contact_set_yield(p, rc->yield_stress, rc->hardening) != RB_OK)
-            return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
-                           mesh->n);
+        const rb_status s = rb_rolling_set_yield(rc, bodies, p, why);
+        if (s != RB_OK)
+            return s;
     }
+    /* The coefficients of friction (K3), what is given (4.6) and the scales (4.4). */
     rb_rolling_set_given(rc, bodies, p);
-    p->differences = rolls;
+    p->differences = rc->formulation == RB_STEADY;
     p->force_unit = " N/mm";
+    /* d_N of the gaps (K1), d_T and e_T of the slips (K2). */
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, p);
-    /* Vertical and horizontal force of unit tractions along n and t. */
+    /* P, Q and M: vertical and horizontal force of unit tractions along n and t. */
     for (int i = 0; i < p->n; i++) {
         const double h = bodies->f.h[i];
         const double sine =
@@ -206,23 +202,7 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
         p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
         p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
     }
-    /* A layer that softens has one answer to a slip only where its stress falls by less
-     * than the friction that the slip sets free. */
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    double most = rb_contact_operator_response(p->op).slip, longest = 0.0;
-
-    for (int i = 0; i < p->n; i++)
-        longest = fmax(longest, bodies->f.h[i]);
-    for (int i = 0; K.S && i < p->n; i++)
-        most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
-    const double least = 1.0 / (p->own * most);
-    return !p->yield || rc->hardening > -least
-               ? RB_OK
-               : rb_refuse(why, "hardening",
-                           "softening by %g MPa/mm has no unique solution, "
-                           "expected %g MPa/mm at most on elements of %.3g mm; shorter ones allow "
-                           "more",
-                           -rc->hardening, rb_largest_shown(least * (1.0 - 1e-9)), longest);
+    return RB_OK;
 }
 
 static rb_status not_made(rb_status s, int n, rb_message *why)
@@ -288,46 +268,6 @@ rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
     return s;
 }
 
-/* ---- What a state carries ---------------------------------------------------------- */
-
-double rb_rolling_model_load(const rb_rolling_model *model)
-{
-    return rb_contact_load(&model->problem, &model->state);
-}
-
-double rb_rolling_model_force(const rb_rolling_model *model)
-{
-    return rb_contact_force(&model->problem, &model->state);
-}
-
-double rb_rolling_force_ratio(const rb_rolling_model *model)
-{
-    const double most = rb_rolling_law_depends_on_state(model->rc)
-                            ? model->problem.mu * rb_rolling_model_load(model)
-                            : rb_contact_capacity(&model->problem, &model->state);
-    return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
-}
-
-double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio)
-{
-    return ratio * model->problem.mu * model->half_width / rb_rolling_radius(model->rc);
-}
-
-double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage)
-{
-    const double mu = model->problem.mu, a = model->half_width;
-    return mu > 0.0 && a > 0.0 && rb_rolling_has_radius(model->rc)
-               ? creepage * rb_rolling_radius(model->rc) / (mu * a)
-               : NAN;
-}
-
-void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
-{
-    rb_contact_yielded(&model->problem, model->state.plastic, model->state.zone, yielded);
-    for (int i = 0; i < model->mesh.n && model->carried.yielded; i++)
-        yielded[i] += model->carried.yielded[i];
-}
-
 /* ---- How it is solved -------------------------------------------------------------- */
 
 double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
@@ -363,12 +303,4 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
                 "%d; give at most %d --contact-elements, or --solver lemke",
                 coupling, problem->n, RB_ROLLING_STRONG_ADVISED_UP_TO);
     return s;
-}
-
-rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why)
-{
-    rb_contact_problem problem = model->problem; /* arrays stay the model's */
-
-    problem.sliding = rb_rolling_sliding_creepage(model->rc, &problem);
-    return rb_contact_lcp_first(&problem, &model->rc->contact, &model->state, lcp, why);
 }

@@ -40,6 +40,11 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
                         rb_contact_problem *p);
 
+/* yield.c: the layer that yields (Y1) in a problem whose operator is set.  RB_EINVAL: it softens by
+ * more than has a unique solution; RB_ENOMEM. */
+rb_status rb_rolling_set_yield(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               rb_contact_problem *p, rb_message *why);
+
 /* Accumulated plastic slip of the interface at the elements (n). */
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 

@@ -4,7 +4,10 @@
 
 #include "rolling/case/inputs.h"
 
+/* law_check.c: RB_EINVAL for numbers out of range. */
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
+/* The least coefficient of the law. */
+double rb_rolling_least_mu(const rb_rolling_case *rc);
 /* Value of the table at x: linear between its points, constant beyond them. */
 double rb_rolling_table_at(const rb_rolling_table *table, double x);
 /* 1 if the law depends on the slip velocity. */
@@ -16,15 +19,6 @@ double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
  * terms have different slip scales or friction remembers (theory-rolling.md F3). */
 double rb_rolling_law_steepest(const rb_rolling_case *rc, double length);
 
-/* The coefficients (n) of the law for the state. */
-rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu, rb_message *why);
-/* Sets first bounds: coefficients of fast sliding up to x, and those at rest beyond. */
-rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why);
-/* law_newton.c: Newton's method from the present bounds, until these and the bounds of
- * the law differ by at most `enough` in the natural residual.  left: number of contact
- * problems that may still be solved.  RB_MAXITER: this number is used up, or the residual
- * does not decrease. */
-rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left, rb_message *why);
 /* Solves the model's problem by iteration if the law depends on the state. */
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
 

@@ -4,6 +4,7 @@
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/heat.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/solution.h"
 

@@ -5,6 +5,7 @@
  * matrix. */
 #include "base/base.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/law_iteration.h"
 
 #include <cblas.h>
 #include <math.h>

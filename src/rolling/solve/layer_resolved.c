@@ -3,6 +3,7 @@
 #include "rolling/case/internal.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 
 #include <math.h>

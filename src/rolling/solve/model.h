@@ -69,11 +69,6 @@ rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_b
  * changed. RB_ENOMEM. */
 rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why);
 
-/* Sets the friction coefficients of the model's problem to those that the friction law
- * gives for its state, and likewise a given force; the residual of the state then
- * includes the friction law.  RB_ENOMEM. */
-rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
-
 /* Peak memory in bytes that rb_rolling_solve needs; serves to refuse sizes that are too
  * large.  n: contact elements; boundary: boundary elements of one wheel (0: half-planes);
  * unknowns: size of Newton's last linear system, elements in contact plus sticking
@@ -94,19 +89,5 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 
 /* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
-
-/* ---- Friction that depends on the state (F2, F3) -------------------------------- */
-
-/* kappa (theory-rolling.md F3) of the state, for friction that depends on the state.  Above 1 a
- * single element, or a step, may have several solutions.  RB_ENOMEM. */
-rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
-/* In steady rolling kappa is the largest of those of the elements: that of one, and the element
- * that has the largest; -1: none, or not steady. */
-double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element);
-int rb_rolling_law_kappa_element(const rb_rolling_model *model);
-
-/* What part of the coefficient that it had before it a particle keeps behind element i, of friction
- * with a memory (theory-rolling.md F2). */
-double rb_rolling_law_kept(const rb_rolling_model *model, int i);
 
 #endif

@@ -6,11 +6,13 @@
 #include "rolling/body/internal.h"
 #include "rolling/body/interpolant.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/law.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/notes.h"
 #include "rolling/solve/patches.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/zone.h"
 

@@ -9,22 +9,15 @@
 /* An exponent of the pressure at an edge below which it is steep there. */
 static const double STEEP = 0.45;
 
-/* Whether a third body is softer than the half-planes under such a length: then the pressure
- * itself is smooth up to the edge, otherwise its square is. */
-static int is_soft(const rb_rolling_case *rc, double length)
-{
-    return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * length;
-}
-
 double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
                                 const rb_contact_state *state, int j, int side)
 {
     const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[j - side] == state->zone[j];
     const double beta = rb_rolling_derive(rc).dundurs;
 
-    return is_soft(rc, length) ? 1.0
-           : slides            ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI
-                               : 0.5;
+    return rb_rolling_interlayer_is_soft(rc, length) ? 1.0
+           : slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI
+                    : 0.5;
 }
 
 /* 1: the contact goes on at the other end of a period, or ends with the punch. */
@@ -80,41 +73,6 @@ static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
     return side > 0 ? fmin(fmax(x, nearest), farthest) : fmax(fmin(x, nearest), farthest);
 }
 
-/* How far the root of the parabola below lies inside of an edge where the pressure starts
- * like a square root, in elements: measured on 50 to 800 elements. */
-static const double BIAS = 0.0076;
-
-/* The root of the parabola y through the third, fourth and fifth element from the
- * edge, in elements beyond the third.  An edge lies between the midpoints of the last
- * loaded and the first open element. */
-static double root_beyond(double y0, double y1, double y2)
-{
-    const double b = 0.5 * (3.0 * y0 - 4.0 * y1 + y2), c = 0.5 * (y0 - 2.0 * y1 + y2);
-    const double square = b * b - 4.0 * c * y0;
-    const double root = square >= 0.0 ? 2.0 * y0 / (sqrt(square) - b) : 2.5;
-
-    return fmin(fmax(root > 0.0 ? root : 2.5, 2.0), 3.0);
-}
-
-/* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
- * patch of RB_ROLLING_ALIGNED_LEAST equal elements or more. */
-static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh, const double *p,
-                           int outer, int side)
-{
-    const int third = outer - 2 * side;
-    const double *end = mesh->ends + third, h = end[1] - end[0];
-    const double y[3] = {p[third], p[third - side], p[third - 2 * side]};
-    const double root = is_soft(rc, h) ? root_beyond(y[0], y[1], y[2])
-                                       : root_beyond(y[0] * y[0], y[1] * y[1], y[2] * y[2]) + BIAS;
-
-    const double x = 0.5 * (end[0] + end[1]) + side * h * root;
-    const int open = outer + side;
-    if (open < 0 || open >= mesh->n)
-        return x;
-    const double farthest = 0.5 * (mesh->ends[open] + mesh->ends[open + 1]);
-    return side > 0 ? fmin(x, farthest) : fmax(x, farthest);
-}
-
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run)
 {
@@ -128,8 +86,8 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
     run->last = at - 1;
     const int length = at - run->first;
     if (rc->mesh == RB_MESH_ALIGNED && length >= RB_ROLLING_ALIGNED_LEAST) {
-        run->from = aligned_edge(rc, mesh, state->p, run->first, -1);
-        run->to = aligned_edge(rc, mesh, state->p, run->last, 1);
+        run->from = rb_rolling_aligned_edge(rc, mesh, state->p, run->first, -1);
+        run->to = rb_rolling_aligned_edge(rc, mesh, state->p, run->last, 1);
         return 1;
     }
     run->from = edge(rc, mesh, state, -1, run);

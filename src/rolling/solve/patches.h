@@ -11,6 +11,13 @@ typedef struct {
     int bounded; /* edges that are only known to lie within one element, as in rb_rolling_patch */
 } rb_rolling_run;
 
+/* 1: a third body is softer than the half-planes under such a length: then the pressure itself is
+ * smooth up to the edge, otherwise its square is. */
+static inline int rb_rolling_interlayer_is_soft(const rb_rolling_case *rc, double length)
+{
+    return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * length;
+}
+
 /* (E1) The power of the distance from the edge on that side (-1 left, +1 right) with which
  * the pressure starts there.  Where A slides with q = -+mu p up to the edge, it is
  * 1/2 + side atan(beta q/p)/pi; without friction, without coupling and in stick 1/2; on a
@@ -39,6 +46,10 @@ static inline int rb_rolling_vertex(const double d[2], const double f[2], double
     *at = -slope / (2.0 * curvature);
     return 1;
 }
+/* aligned_edge.c: the edge beyond the outermost loaded element on that side (-1 left, +1 right) of
+ * a patch of RB_ROLLING_ALIGNED_LEAST equal elements or more.  p: n. */
+double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                               const double *p, int outer, int side);
 /* Finds the next patch from element `at` on; returns 0 if there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);

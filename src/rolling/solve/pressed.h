@@ -13,4 +13,9 @@ rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why);
 /* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
 rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
 
+/* Solves a trial of a search.  s: its numbers, without columns, the moment of the pressure among
+ * them also in static; widest: NULL, or the half-width of the potential contact that it needs. */
+rb_status rb_rolling_try(const rb_rolling_case *trial, rb_rolling_solution *s, double *widest,
+                         rb_message *why);
+
 #endif

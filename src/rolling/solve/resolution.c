@@ -4,6 +4,7 @@
 #include "rolling/body/mesh.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 
 #include <gsl/gsl_math.h>

@@ -1,4 +1,5 @@
 /* The results, each once: JSON, tables, studies and error bars are made from these. */
+#include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/stress.h"

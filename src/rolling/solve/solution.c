@@ -4,11 +4,13 @@
  * balance of the support. */
 #include "rolling/body/internal.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/cycle.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/heat.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/power.h"

@@ -5,6 +5,7 @@
 #include "rolling/body/mesh.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
+#include "rolling/solve/law_iteration.h"
 
 #include <gsl/gsl_math.h>
 #include <stddef.h>

@@ -1,12 +1,16 @@
 /* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
  * the speed of viscoelastic bodies (V4). */
+#include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/columns.h"
+#include "rolling/solve/fit.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/law_iteration.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/power.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/zone.h"
 #include "rolling/study/study.h"

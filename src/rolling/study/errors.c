@@ -1,8 +1,10 @@
 /* Discretisation errors from coarser runs (theory-solvers.md 5.1). */
 #include "rolling/body/body.h"
 #include "rolling/body/mesh.h"
+#include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/patches.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/stress.h"
 #include "rolling/solve/zone.h"

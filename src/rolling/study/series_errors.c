@@ -3,6 +3,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 #include "rolling/study/internal.h"
 #include "rolling/study/study.h"
