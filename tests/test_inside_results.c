@@ -155,7 +155,7 @@ TEST(unlike_bodies_share_by_temperature)
         double power[100] = {0.0};
         assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
         struct rb_rolling_conduction *conduction = NULL;
-        CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, s.temperature,
+        CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, power, &conduction, s.temperature,
                                                s.temperature_b, NULL, NULL, NULL));
         rb_rolling_conduction_free(conduction);
         for (int i = 0; i < s.n; i++) {
@@ -183,7 +183,7 @@ TEST(shares_of_equal_elements_are_those_of_any)
         for (int k = 0; k < 2; k++) {
             rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
             struct rb_rolling_conduction *conduction = NULL;
-            CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, t[2 * k],
+            CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, power, &conduction, t[2 * k],
                                                    t[2 * k + 1], NULL, NULL, NULL));
             rb_rolling_conduction_free(conduction);
         }

@@ -586,6 +586,48 @@ TEST(what_heat_takes_away)
     rb_case_result_free(&r);
 }
 
+/* Whoever computes them again, from a state in which the last digits are others, finds the same to
+ * what is taken for rounding of other results. */
+TEST(last_digits_of_a_state_warm_nothing)
+{
+    static const words cases[] = {
+        {{PLANES ROLLING "similar yes force-ratio 0.5 speed 3000 conductivity 50 heat-capacity 3.5 "
+                         "conductivity-b 20 heat-capacity-b 2"}},
+        {{"support hub outer-elements 60 contact-elements 12 load 500 " ROLLING
+          "young-b 70000 creep 2e-3 speed 3000 conductivity 50 heat-capacity 3.5"}},
+    };
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_case_derivatives all[2];
+        rb_case_result r;
+        int numbers;
+        held_case *c = solved(&cases[k], NULL, 0.0, &r);
+        for (int moved = 0; moved < 2; moved++) {
+            for (int i = 0; i < r.model.mesh.n && moved; i++) {
+                r.model.state.p[i] *= 1.0 + (i % 3 - 1) * 2e-15;
+                r.model.state.q[i] *= 1.0 + (i % 5 - 2) * 1e-15;
+                r.model.state.lambda[i] *= 1.0 + (i % 7 - 3) * 1e-15;
+            }
+            CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all[moved], &message));
+        }
+        CHECK_OK(rb_case_numbers(c, number, &numbers, &message));
+        assert_int_equal(numbers, all[0].n);
+        for (int j = 0; j < numbers; j++) {
+            const int side = !all[0].of[j].d.has[0];
+            if (all[0].of[j].status == RB_OK)
+                CHECK_ABS(all[1].of[j].d.value[side].max_temperature,
+                          all[0].of[j].d.value[side].max_temperature,
+                          1e-10 * fmax(1.0, r.solution.max_temperature) / number[j].input.scale,
+                          "by %s", number[j].name);
+        }
+        rb_case_derivatives_free(&all[0]);
+        rb_case_derivatives_free(&all[1]);
+        rb_case_result_free(&r);
+    }
+    free(number);
+}
+
 /* Without friction an element that does not slide has no direction: a coefficient that begins to
  * grow lets it rest, or finds one. */
 TEST(friction_begins_where_nothing_slides)

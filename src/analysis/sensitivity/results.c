@@ -91,48 +91,24 @@ void rb_sensitivity_combine(const rb_sensitivity *s, const rb_sensitivity_stenci
 }
 
 /* Derivatives of both temperatures (2n), from the results moved to the places of the stencil.  Only
- * powers > 0 heat, and small ones change their sign within the step: the case varies where the
- * solution stays, and the solution goes a small part of its way. */
+ * powers > 0 heat, and small ones change their sign within the step: the elements heat that heat in
+ * the solution, so that no kink is passed. */
 static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivity_variants *v,
                                     const rb_rolling_solution *moved, double *warmer,
                                     rb_message *why)
 {
-    const rb_rolling_solution *at = &s->solution;
-    const size_t n = (size_t)s->n;
-    const double part = RB_STEP_OF_STATE * v->scale / v->step;
-    rb_arena scratch = {0};
-    double *near[5], *t = rb_arena_doubles(&scratch, n, 2);
+    double *t = rb_alloc((size_t)s->n, 2);
     struct rb_rolling_conduction *conduction = NULL;
-    rb_status status = RB_OK;
+    rb_status status = t ? RB_OK : RB_ENOMEM;
 
-    for (int j = 0; j < 5; j++)
-        near[j] = rb_arena_doubles(&scratch, n, 1);
-    if (scratch.failed)
-        return rb_arena_done(&scratch, RB_ENOMEM);
     for (int k = 0; k < v->at.n && status == RB_OK; k++) {
-        status =
-            rb_rolling_solution_heat(v->model[k].rc, at, &conduction, t, t + n, NULL, NULL, why);
+        status = rb_rolling_solution_heat(v->model[k].rc, &moved[k], &s->solution, &conduction, t,
+                                          t + s->n, NULL, NULL, why);
         cblas_daxpy(2 * s->n, v->at.weight[k] / v->step, t, 1, warmer, 1);
     }
-    rb_rolling_solution small = *at;
-    small.x = near[0];
-    small.h = near[1];
-    small.q = near[2];
-    small.slip = near[3];
-    small.shift = near[4];
-    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
-        const double *from[] = {at->x, at->h, at->q, at->slip, at->shift},
-                     *to[] = {moved[k].x, moved[k].h, moved[k].q, moved[k].slip, moved[k].shift};
-        for (int j = 0; j < 5; j++)
-            for (size_t i = 0; i < n; i++)
-                near[j][i] = from[j][i] + part * (to[j][i] - from[j][i]);
-        small.creepage = at->creepage + part * (moved[k].creepage - at->creepage);
-        status =
-            rb_rolling_solution_heat(s->model->rc, &small, &conduction, t, t + n, NULL, NULL, why);
-        cblas_daxpy(2 * s->n, v->at.weight[k] / (part * v->step), t, 1, warmer, 1);
-    }
     rb_rolling_conduction_free(conduction);
-    return rb_arena_done(&scratch, status);
+    free(t);
+    return status;
 }
 
 /* (D4) the results at the places of the stencil, moved along the tangent. */

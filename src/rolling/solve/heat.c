@@ -305,7 +305,7 @@ static rb_status share_heat(const conductor *a, const conductor *b, const rb_rol
 }
 
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                        const double *power,
+                                        const double *power, const double *sign,
                                         struct rb_rolling_conduction **conduction, double *t_a,
                                         double *t_b, double *per_area_a, double *per_area_b,
                                         rb_message *why)
@@ -342,11 +342,12 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
 
         for (int i = 0; i < n; i++) {
             all += power[i];
-            heats += fmax(power[i], 0.0);
+            heat[i] = sign[i] > 0.0 ? power[i] : sign[i] < 0.0 ? 0.0 : fmax(power[i], 0.0);
+            heats += heat[i];
         }
         const double part = all > 0.0 ? all / heats : 0.0;
         for (int i = 0; i < n; i++) {
-            heat[i] = rc->speed * part * fmax(power[i], 0.0);
+            heat[i] *= rc->speed * part;
             heat_a[i] = alike ? 0.5 * heat[i] : into_a ? heat[i] : 0.0;
         }
         if (shared)

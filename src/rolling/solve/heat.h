@@ -11,10 +11,11 @@ double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_
 double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
  * a steady solution with tractions, slip and zones, and the heat per area that enters each (NULL:
- * not asked for).  conduction: where what the elements make of heat is kept, from NULL on; freed by
- * the caller. */
+ * not asked for).  sign (n): elements with a positive one heat, and no others; power itself, or
+ * that of a solution nearby.  conduction: where what the elements make of heat is kept, from NULL
+ * on; freed by the caller. */
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                        const double *power,
+                                        const double *power, const double *sign,
                                         struct rb_rolling_conduction **conduction, double *t_a,
                                         double *t_b, double *heat_a, double *heat_b,
                                         rb_message *why);

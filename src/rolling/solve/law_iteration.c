@@ -47,8 +47,8 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
         view.slip[i] = state->lambda[i] / model->problem.e_T[i];
     }
     rb_rolling_friction_power(&view, power);
-    const rb_status s = rb_rolling_steady_temperature(rc, &view, power, &model->conduction, t, t_b,
-                                                      NULL, NULL, why);
+    const rb_status s = rb_rolling_steady_temperature(rc, &view, power, power, &model->conduction,
+                                                      t, t_b, NULL, NULL, why);
     free(scratch);
     return s;
 }

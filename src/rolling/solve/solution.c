@@ -223,16 +223,18 @@ static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
 }
 
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   const rb_rolling_solution *heats,
                                    struct rb_rolling_conduction **conduction, double *t_a,
                                    double *t_b, double *heat_a, double *heat_b, rb_message *why)
 {
-    double *power = rb_alloc((size_t)s->n, 1);
+    double *power = rb_alloc((size_t)s->n, 2);
 
     if (!power)
         return RB_ENOMEM;
     rb_rolling_friction_power(s, power);
-    const rb_status status =
-        rb_rolling_steady_temperature(rc, s, power, conduction, t_a, t_b, heat_a, heat_b, why);
+    rb_rolling_friction_power(heats, power + s->n);
+    const rb_status status = rb_rolling_steady_temperature(rc, s, power, power + s->n, conduction,
+                                                           t_a, t_b, heat_a, heat_b, why);
     free(power);
     return status;
 }
@@ -262,7 +264,7 @@ rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_s
     /* of a transient the steps have followed the heat */
     if (rc->formulation == RB_STEADY) {
         struct rb_rolling_conduction *conduction = NULL;
-        status = rb_rolling_solution_heat(rc, s, &conduction, s->temperature, s->temperature_b,
+        status = rb_rolling_solution_heat(rc, s, s, &conduction, s->temperature, s->temperature_b,
                                           s->heat_a, s->heat_b, why);
         rb_rolling_conduction_free(conduction);
     } else if (model->carried.temperature) {

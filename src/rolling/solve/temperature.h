@@ -19,11 +19,14 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
                                  double *value, double *at);
 
 /* Temperatures of steady rolling from x, h, zone, q, slip and shift of the solution, into
- * t_a and t_b, n each.  conduction: kept from call to call on the same elements, NULL at first;
- * free it with rb_rolling_conduction_free in any case.  RB_ENOMEM, RB_SINGULAR. */
+ * t_a and t_b, n each.  heats: the elements heat that heat in it; the solution itself, or, where it
+ * is differentiated, the one of whose elements none shall begin to heat.  conduction: kept from
+ * call to call on the same elements, NULL at first; free it with rb_rolling_conduction_free in any
+ * case.  RB_ENOMEM, RB_SINGULAR. */
 struct rb_rolling_conduction;
 void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   const rb_rolling_solution *heats,
                                    struct rb_rolling_conduction **conduction, double *t_a,
                                    double *t_b, double *heat_a, double *heat_b, rb_message *why);
 
