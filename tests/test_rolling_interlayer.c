@@ -134,6 +134,20 @@ TEST(normal_compliance_widens_the_contact)
     }
 }
 
+/* A first third body widens the contact, and by little: so do derivatives by it at 0. */
+TEST(a_thin_third_body_changes_little)
+{
+    static const double compliance[] = {0.0, 1e-13, 1e-10};
+    double a[3];
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = rolling_case("support halfplane gap parabola young 210000 poisson 0.3 "
+                                          "similar radius 100 load 900");
+        rc.interlayer_normal = compliance[k];
+        a[k] = rb_rolling_contact_half_width(&rc, 900.0);
+    }
+    CHECK_REL((a[1] - a[0]) / compliance[1], (a[2] - a[0]) / compliance[2], 1e-3, "da/dL");
+}
+
 TEST(negative_compliance_is_refused)
 {
     rb_rolling_case rc = layered(1.0, 60, 0.5);

@@ -105,7 +105,7 @@ def tag_L9():
 
 
 def tag_A1():
-    text = printed(ROLLING, r"a^3 = a_H^2\,(1 + m)\,(1 + 0.13\,t^{0.4})\,a + B").split("= ")[1]
+    text = printed(ROLLING, r"a^3 = a_H^2\,(1 + m)\,\left(1 + \frac{0.162\,t\,(t + 0.052)}{(t + 0.0174)\,(t + 0.364)}\right) a + B").split("= ")[1]
     B, t = printed(ROLLING, r"B = \tfrac32 R L_N P").split("=")[1], printed(ROLLING, "t = B/a^3").split("=")[1]
     m = printed(ROLLING, r"\frac{f_k}{1 + z_k + 1.15\,z_k^2/(1 + \sum f)^{0.6}}").replace(r"\sum f", "f")
     z = printed(ROLLING, r"z_k = V\tau_k/a").split("=")[1].replace(r"\tau_k", "*tau_k")
@@ -115,7 +115,7 @@ def tag_A1():
         b = value(B, R=100.0, L_N=case.get("interlayer_normal", 0.0), P=1000.0)
         mean = value(m, f_k=4.0, f=4.0, z_k=value(z, V=100.0, tau_k=0.01, a=a)) if more else 0.0
         names = dict(a_H=np.sqrt(squared), m=mean, t=value(t, B=b, a=a), a=a, B=b)
-        close(value(text.replace("t^{0.4}", "t^0.4"), **names), a**3, 1e-6)
+        close(value(text, **names), a**3, 1e-6)
 
 
 def tag_T3():

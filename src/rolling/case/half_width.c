@@ -87,7 +87,8 @@ static double half_width_alone(const rb_rolling_case *rc, double load)
         const double relaxed = relaxes ? rigid * relaxed_part(rc, &rc->a.memory, a) +
                                              other * relaxed_part(rc, &rc->b.memory, a)
                                        : 0.0;
-        const double flatter = soft > 0.0 ? 1.0 + 0.13 * pow(soft / (a * a * a), 0.4) : 1.0;
+        const double t = soft / (a * a * a);
+        const double flatter = 1.0 + 0.162 * t * (t + 0.052) / ((t + 0.0174) * (t + 0.364));
         const double next = cbrt(hertz * hertz * (1.0 + relaxed) * a * flatter + soft);
         const double step = next - a;
         a = next;
