@@ -1,4 +1,5 @@
 /* Boundary elements behind a hierarchical matrix against the dense one and the integrals. */
+#include "bem/hierarchical.h"
 #include "bem/hierarchical_parts.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"

@@ -18,8 +18,8 @@ static const struct {
     {"lcp/proof", " base lcp "},
     {"lcp/contact", " base sizes lcp contact "},
     {"lcp/friction", " base sizes blas sparse io io_fclib lcp contact friction "},
-    {"rolling/case", " base sizes units io io_contact rolling options case "},
-    {"rolling/body", " base sizes blas units bem lcp contact rolling options "},
+    {"rolling/case", " base sizes units io io_contact bem boundary rolling options case "},
+    {"rolling/body", " base sizes blas units bem boundary lcp contact rolling options "},
     {"rolling/solve", " base sizes blas units bem lcp contact rolling options "},
     {"rolling/history", " base blas units bem lcp contact rolling options "},
     {"rolling/study", " base blas units bem lcp contact rolling options "},
@@ -73,11 +73,11 @@ static const struct {
     {"rolling/body", " case/check case/derived case/inputs case/internal solve/model "
                      "solve/variant "},
     {"rolling/solve", " body/body body/far_field body/former_place body/gap body/internal "
-                      "body/interpolant body/mesh body/perturbation case/derived "
+                      "body/interpolant body/mesh body/perturbation body/surface case/derived "
                       "case/check case/ellipse case/inputs case/internal "
                       "history/history study/study "},
     {"rolling/history",
-     " body/body body/former_place body/internal body/mesh case/derived "
+     " body/body body/former_place body/internal body/mesh body/surface case/derived "
      "case/check case/inputs case/internal solve/columns solve/cycle solve/field "
      "solve/formulation solve/heat solve/law solve/law_iteration solve/model solve/patches "
      "solve/power solve/resolution solve/results solve/solution solve/stress solve/variant "
@@ -126,7 +126,8 @@ static int height_of(const char *file)
 /* A header by which a folder is used from others: src/a/b/b.h, and few others. */
 static int is_door(const char *folder, const char *name)
 {
-    static const char others[] = " base/blas base/sizes base/sparse base/units base/io/io_contact "
+    static const char others[] = " base/blas base/sizes base/sparse base/units bem/boundary "
+                                 "base/io/io_contact "
                                  "base/io/io_fclib rolling/case/closed_forms "
                                  "rolling/case/options rolling/case/rubber "
                                  "analysis/sensitivity/derivatives "

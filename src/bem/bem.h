@@ -3,88 +3,9 @@
 #ifndef ROLLBEM_SRC_BEM_BEM_H
 #define ROLLBEM_SRC_BEM_BEM_H
 
-#include "base/base.h"
-#include "base/sizes.h"
-#include "rollbem/bem.h"
+#include "bem/boundary.h"
 
-/* ---- Elasticity ------------------------------------------------------------------ */
-
-/* Long bodies, loads per unit length, or thin discs, loads per unit thickness. */
-typedef enum { RB_PLANE_STRAIN, RB_PLANE_STRESS } rb_bem_plane;
-
-/* 1: 1 - 2 nu is below 1e-9: then what is left of the term that the pressure of a hub works on
- * drowns in the rounding of the others. */
-int rb_bem_is_incompressible(rb_bem_material material);
-
-/* Converts plane stress to plane strain (B2); nowhere else is this done.  young, poisson:
- * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
-rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
-
-/* Estimated reciprocal condition number (1-norm) of the scaled matrix A; NAN if A is
- * hierarchical. */
-double rb_bem_system_rcond(const rb_bem_system *system);
-
-/* ---- Meshes (B4) ----------------------------------------------------------------- */
-
-/* What all functions ask of a mesh (rb_bem_mesh). */
-rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why);
-
-/* Length of element j. */
-double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j);
-
-/* Height of a circle above its lowest point, R - sqrt(R^2 - x^2), |x| <= R, without
- * cancellation (B9). */
-double rb_bem_circle_height(double radius, double x);
-
-/* The most elements of the contact, and outside it, of a cylinder's mesh. */
-enum { RB_BEM_MOST_ELEMENTS = 1000000 };
-
-/* Meshes the core of a covered cylinder (B11): a ring between the inner contour of the
- * cover's mesh, in reversed order, and a rigid hub of radius hub_ratio R.  RB_EINVAL: the
- * hub reaches the cover. */
-rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
-                           rb_bem_mesh *core, rb_message *why);
-
-/* ---- Mixed problems and condensation (B4-B6) -------------------------------------- */
-
-/* Bytes that the system and its condensation need; serves to refuse sizes that are too
- * large. */
-double rb_bem_system_bytes(int n, int n_c);
-
-/* The instruction set that the integrals use on this processor: "AVX-512", "AVX2" or
- * "plain". */
-const char *rb_bem_vector_name(void);
-
-/* With RB_BEM_HIERARCHICAL elements or more the matrix is hierarchical: the flexibility agrees
- * to 1e-8, the work is about n log n, the memory of order n. */
-
-/* As rb_bem_system_create; a hierarchical matrix is compressed to the relative tolerance
- * `compression`, if that is less than usual (at most 1e-9), for systems whose difference is
- * taken. */
-rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
-                                      double compression, rb_bem_system **system, rb_message *why);
-/* A cover bonded to an elastic core (B11).  The inner contour of the cover (the last
- * elements of its mesh) has the displacement that the tractions there cause in the core.
- * The matrix is dense at any size.  RB_EINVAL also if the two meshes do not match, or if
- * the cover is incompressible. */
-rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
-                                      const rb_bem_mesh *core, rb_bem_material core_material,
-                                      rb_bem_system **system, rb_message *why);
-
-/* Its elements; borrowed. */
-const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
-
-/* Seconds spent in assembly and in the LU. */
-void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor);
-
-/* ---- Flexibility of the contact (B5) ---------------------------------------------- */
-
-/* As rb_bem_condense, but more accurate close to the load (B10): the exact half-plane
- * solution of each loaded element is subtracted, and the boundary elements solve for the
- * smooth remainder.  RB_EINVAL also if the body does not lie on the inner side of every
- * contact element. */
-rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
-                                     rb_bem_flexibility *f, rb_message *why);
+/* ---- Changes of a body ------------------------------------------------------------ */
 
 /* A body under given tractions r = (r_N, r_T) of its contact (2 contact_n), and what they displace
  * more where it is a slightly different one. */
@@ -101,6 +22,8 @@ rb_status rb_bem_loaded_change(rb_bem_loaded *loaded, const rb_bem_mesh *mesh,
                                rb_bem_material material, double *change);
 void rb_bem_loaded_free(rb_bem_loaded *loaded);
 
+/* ---- Bodies whose response depends on the distance alone --------------------------- */
+
 /* (V2) The memory of a half-plane keeps ln(sqrt(r^2 + d^2)/r) of a load that has moved on by r,
  * where the elastic displacement is ln(d/|x|): what the first has over the second, as a
  * function of r/d >= 0, and its mean G over exp(-u) du at r = u L, as a function of d/L > 0. */
@@ -111,16 +34,16 @@ double rb_bem_memory_of_datum(double datum_over_length);
 double rb_bem_memory_of_strip(double width_over_length);
 
 /* Bonded layers from the surface down; borrowed. */
-typedef struct {
+struct rb_bem_stack {
     int n;                                     /* at least 2 */
     const double *thickness, *young, *poisson; /* n each */
-} rb_bem_stack;
+};
 
 /* A body whose influence function depends on the distance alone (a wheel's does not).  It
  * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
  * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
  * pointers are borrowed. */
-typedef struct {
+struct rb_bem_surface {
     rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
                                  (instantaneous) constants */
     double datum;             /* where along the half-plane or elastic base a load moves nothing */
@@ -143,7 +66,7 @@ typedef struct {
                                   `material` and `thickness`; NULL: one */
     double period; /* of tractions that repeat themselves along an elastic half-plane [length]: its
                       displacement has the mean 0 and no datum (P1); 0: none */
-} rb_bem_surface;
+};
 
 /* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from
  * the loaded point. */
@@ -204,14 +127,14 @@ rb_bem_fading rb_bem_fading_over(double time, double step);
 /* A wheel with rotational symmetry: a ring of one material, or a cover on a core that is
  * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
  * viscoelastic.  Pointers are borrowed. */
-typedef struct {
+struct rb_bem_wheel {
     double radius, inner;     /* outer and inner radius of the material, bonded at `inner` */
     rb_bem_material material; /* its glassy (instantaneous) constants */
     int terms;
     const double *ratio, *length;
     double hub; /* radius of the rigid hub below an elastic core; 0: rigid at `inner` */
     rb_bem_material core;
-} rb_bem_wheel;
+};
 
 /* The flexibility of the glassy wheel by its waves around the circumference (B12): no
  * boundary elements outside the contact, n_c^2 work.  ends as in rb_bem_mesh_cylinder;
@@ -246,26 +169,7 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
                                         const double *ends, rb_bem_flexibility *f, rb_message *why);
 
-/* Adds a compliant interface whose deformation at an element depends only on the traction
- * of this element: normal and tangential compliance on the diagonals of F_NN and F_TT
- * [length/stress], n values each, >= 0.  Call it after rb_bem_flexibility_pair.
- * RB_EINVAL, RB_ENOMEM. */
-rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
-                                            const double *tangential);
-
-/* Adds a matrix, 2m x 2n, to that of f.  RB_EINVAL: f does not store one. */
-rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F);
-/* To elements `scale` times as long, wherever they stand, of half-planes: the displacement by a
- * logarithm of the distance adds `along` [1/stress] times the length of a loaded element to F_NN
- * and F_TT.  ends: as of rb_bem_flexibility_surface.  RB_EINVAL: f does not store a matrix. */
-rb_status rb_bem_flexibility_stretch(rb_bem_flexibility *f, const double *ends, double scale,
-                                     double along);
-/* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
-const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
-/* The same flexibility as a dense matrix. */
-rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense);
-/* Converts f to a dense matrix.  RB_ENOMEM leaves f unchanged. */
-rb_status rb_bem_flexibility_store(rb_bem_flexibility *f);
+/* ---- Products by Fourier transforms ----------------------------------------------- */
 
 /* Circulant preconditioners for a line of equal elements: approximate inverses of F_NN or
  * F_TT (apply) and of A F_TT (apply_difference), where (A w)_i = sum over k of stencil_k

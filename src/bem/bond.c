@@ -1,8 +1,7 @@
 #include "bem/bond.h"
 
-#include "bem/assemble.h"
 #include "bem/internal.h"
-#include "bem/system.h"
+#include "bem/strip.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -92,6 +91,49 @@ rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
     else
         rb_bond_free(b);
     return s;
+}
+
+rb_status rb_bond_add(rb_bem_system *s, const rb_assembly *assembly)
+{
+    const rb_bond *bond = s->bond;
+    const size_t rows = (size_t)s->dofs, columns = 2 * (size_t)bond->n;
+    double *H = rb_alloc(rows, columns), *C = rb_alloc(columns, columns);
+
+    if (H && C) {
+        for (int i = 0; i < bond->n; i++) {
+            double *x = H + 2 * (size_t)i * rows;
+            rb_assembly_columns(assembly, bond->first + i, 1.0,
+                                (double *const[4]){x, x + rows, NULL, NULL});
+        }
+        for (size_t k = 0; k < columns * columns; k++)
+            C[k] = bond->C[k] * s->unit[(size_t)bond->first + k / columns / 2];
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, 2 * bond->n, 2 * bond->n,
+                    -1.0, H, s->dofs, C, 2 * bond->n, 1.0, rb_bem_system_column(s, 2 * bond->first),
+                    s->ld);
+    }
+    const rb_status status = H && C ? RB_OK : RB_ENOMEM;
+    free(C);
+    free(H);
+    return status;
+}
+
+/* An incompressible cover does not tell how its core is pressed all around. */
+rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
+                                      const rb_bem_mesh *core, rb_bem_material core_material,
+                                      rb_bem_system **system, rb_message *why)
+{
+    rb_bond *bond = NULL;
+    *system = NULL;
+    rb_status s = rb_bem_mesh_check(cover, why);
+    if (s == RB_OK && rb_bem_is_incompressible(material))
+        s = rb_fail(why, RB_EINVAL,
+                    "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
+                    material.poisson);
+    if (s == RB_OK)
+        s = rb_bem_material_check(core_material, why);
+    if (s == RB_OK)
+        s = rb_bond_create(cover, core, core_material, &bond, why);
+    return s == RB_OK ? rb_bem_system_make(cover, material, 1, INFINITY, bond, system, why) : s;
 }
 
 /* value = u of the strips in the core - in the cover, - W u of the strips on the hub. */

@@ -4,11 +4,13 @@
 #ifndef ROLLBEM_BEM_BOND_H
 #define ROLLBEM_BEM_BOND_H
 
-#include "bem/strip.h"
-#include "bem/bem.h"
+#include "bem/assemble.h"
+#include "bem/system.h"
+
+#include <complex.h>
 
 /* Dofs of the interface count as in the cover's mesh, from its element `first` on. */
-typedef struct {
+typedef struct rb_bond {
     int first, n, hub_n; /* elements of the interface, of the core's hub */
     rb_bem_mesh core;    /* the interface run backwards, then the hub; owned */
     rb_bem_material material;
@@ -21,6 +23,10 @@ typedef struct {
 rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
                          rb_bem_material material, rb_bond **bond, rb_message *why);
 void rb_bond_free(rb_bond *bond);
+
+/* On the bonded contour u = -C t: the columns of its tractions in the matrix of the cover, -G so
+ * far, become -(G + H C).  RB_ENOMEM. */
+rb_status rb_bond_add(rb_bem_system *cover, const rb_assembly *assembly);
 
 /* The displacement ux + i uy of a strip's field at z. */
 typedef double complex rb_bond_field(rb_bem_material material, double complex z,

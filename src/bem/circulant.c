@@ -1,6 +1,7 @@
 /* A preconditioner: the inverse of the flexibility of an infinite line of equal elements,
  * whose eigenvectors are Fourier modes, restricted to the given line. */
 #include "bem/fourier.h"
+#include "bem/bem.h"
 #include "bem/internal.h"
 
 #include <complex.h>

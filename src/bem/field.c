@@ -1,6 +1,8 @@
 /* Stress inside a loaded body (B8, B10): strips under the contact tractions, linear
  * between nodes, in closed form, and Somigliana's identity for the smooth
  * remainder. */
+#include "bem/bond.h"
+#include "bem/interior.h"
 #include "bem/internal.h"
 #include "bem/strip.h"
 #include "bem/system.h"

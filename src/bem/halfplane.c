@@ -3,6 +3,7 @@
 #include "bem/internal.h"
 #include "bem/complex.h"
 #include "bem/kernels.h"
+#include "bem/surface.h"
 #include "base/blas.h"
 
 #include <gsl/gsl_math.h>

@@ -1,3 +1,4 @@
+#include "bem/hierarchical.h"
 #include "bem/hierarchical_parts.h"
 #include "base/blas.h"
 

@@ -1,4 +1,5 @@
 /* Solutions with a hierarchical matrix, and the check that they are solutions. */
+#include "bem/hierarchical.h"
 #include "bem/hierarchical_parts.h"
 #include "base/blas.h"
 

@@ -5,7 +5,7 @@
 #ifndef ROLLBEM_BEM_INCOMPRESSIBLE_H
 #define ROLLBEM_BEM_INCOMPRESSIBLE_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 
 typedef struct {
     int count;      /* contours; 0: nothing else is there */

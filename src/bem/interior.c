@@ -17,6 +17,7 @@
  * where alpha = i G u/(pi (1+kap)) and Q(f) = int f dz0/w for f linear along the piece,
  * by parts -(f continued to z)(Lam + i Th) - f_s l. */
 #include "bem/complex.h"
+#include "bem/interior.h"
 #include "bem/internal.h"
 #include "bem/kernels.h"
 #include "base/blas.h"

@@ -27,7 +27,7 @@
 #ifndef ROLLBEM_BEM_KERNELS_H
 #define ROLLBEM_BEM_KERNELS_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -4,6 +4,7 @@
 #include "bem/internal.h"
 #include "bem/layer.h"
 #include "bem/stack.h"
+#include "bem/surface.h"
 #include "base/blas.h"
 
 #include <gsl/gsl_integration.h>

@@ -2,6 +2,7 @@
  * is the elastic one plus exponential averages along the path of the particle
  * upstream. */
 #include "bem/internal.h"
+#include "bem/surface.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_expint.h>

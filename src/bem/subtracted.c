@@ -1,6 +1,7 @@
 /* Singularities subtracted from a condensation (B10).  For each contact element the half-plane's
  * solution of its load, whose logarithm at the ends of the element constant elements resolve
  * badly, is in closed form; boundary elements solve for what it leaves. */
+#include "bem/bond.h"
 #include "bem/subtracted.h"
 #include "base/blas.h"
 #include "bem/assemble.h"

@@ -3,6 +3,7 @@
  * on a base (L3). */
 #include "bem/internal.h"
 #include "bem/layer.h"
+#include "bem/surface.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

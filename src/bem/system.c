@@ -5,6 +5,8 @@
 #include "bem/system.h"
 #include "base/sizes.h"
 #include "bem/assemble.h"
+#include "bem/bond.h"
+#include "bem/hierarchical.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
 #include "base/blas.h"
@@ -69,38 +71,6 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
     *factor = system->seconds_factor;
 }
 
-/* The unknowns are numbered around the body from the neighbour of the upstream element on.  Those
- * of the contact and of the upstream element, which alone are wanted (B5), come last: back
- * substitution gives them first and stops there. */
-static double *column_of(const rb_bem_system *s, int dof)
-{
-    return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
-}
-
-/* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C). */
-static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
-{
-    const rb_bond *bond = s->bond;
-    const size_t rows = (size_t)s->dofs, columns = 2 * (size_t)bond->n;
-    double *H = rb_alloc(rows, columns), *C = rb_alloc(columns, columns);
-
-    if (H && C) {
-        for (int i = 0; i < bond->n; i++) {
-            double *x = H + 2 * (size_t)i * rows;
-            rb_assembly_columns(assembly, bond->first + i, 1.0,
-                                (double *const[4]){x, x + rows, NULL, NULL});
-        }
-        for (size_t k = 0; k < columns * columns; k++)
-            C[k] = bond->C[k] * s->unit[(size_t)bond->first + k / columns / 2];
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, 2 * bond->n, 2 * bond->n,
-                    -1.0, H, s->dofs, C, 2 * bond->n, 1.0, column_of(s, 2 * bond->first), s->ld);
-    }
-    const rb_status status = H && C ? RB_OK : RB_ENOMEM;
-    free(C);
-    free(H);
-    return status;
-}
-
 /* A, b and Gc from the columns of H and G (B4). */
 static rb_status assemble(rb_bem_system *s)
 {
@@ -126,10 +96,10 @@ static rb_status assemble(rb_bem_system *s)
             continue;
         for (int k = 0; k < 2; k++) {
             if (s->A && condition[k] == RB_BEM_DISPLACEMENT) {
-                G[k] = column_of(s, 2 * j + k);
+                G[k] = rb_bem_system_column(s, 2 * j + k);
                 G_factor = -s->unit[j];
             } else if (s->A) {
-                H[k] = column_of(s, 2 * j + k);
+                H[k] = rb_bem_system_column(s, 2 * j + k);
             }
             if (condition[k] == RB_BEM_CONTACT)
                 G[k] = s->Gc + (2 * (size_t)(j - mesh->contact_first) + (size_t)k) * (size_t)s->ld;
@@ -137,7 +107,7 @@ static rb_status assemble(rb_bem_system *s)
         rb_assembly_columns(&assembly, j, G_factor, (double *const[4]){H[0], H[1], G[0], G[1]});
     }
     /* A bonded core and the given values, which move to the right-hand side. */
-    status = stop ? RB_INTERRUPTED : s->bond ? add_bond(s, &assembly) : RB_OK;
+    status = stop ? RB_INTERRUPTED : s->bond ? rb_bond_add(s, &assembly) : RB_OK;
     if (status == RB_OK)
         status = rb_assembly_add_given(&assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
@@ -148,7 +118,7 @@ static rb_status assemble(rb_bem_system *s)
         status = rb_held_contours_find(mesh, s->material, &held);
         for (int j = 0; held.count && j < s->dofs; j++)
             for (int i = 0; held.contour[j / 2] >= 0 && i < s->dofs; i++)
-                column_of(s, j)[i] += rb_held_contours_term(&held, i, j);
+                rb_bem_system_column(s, j)[i] += rb_held_contours_term(&held, i, j);
         rb_held_contours_free(&held);
     }
     return status;
@@ -205,9 +175,9 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
     return (dense ? dense_bytes : hierarchical_bytes)(mesh->n, mesh->contact_n);
 }
 
-/* Takes over the bond; NULL: none. */
-static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
-                        double compression, rb_bond *bond, rb_bem_system **system, rb_message *why)
+rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                             double compression, rb_bond *bond, rb_bem_system **system,
+                             rb_message *why)
 {
     *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
@@ -282,32 +252,14 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                                   rb_bem_system **system, rb_message *why)
 {
-    return create(mesh, material, dense, INFINITY, NULL, system, why);
-}
-
-/* An incompressible cover does not tell how its core is pressed all around. */
-rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
-                                      const rb_bem_mesh *core, rb_bem_material core_material,
-                                      rb_bem_system **system, rb_message *why)
-{
-    rb_bond *bond = NULL;
-    *system = NULL;
-    rb_status s = rb_bem_mesh_check(cover, why);
-    if (s == RB_OK && rb_bem_is_incompressible(material))
-        s = rb_fail(why, RB_EINVAL,
-                    "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
-                    material.poisson);
-    if (s == RB_OK)
-        s = rb_bem_material_check(core_material, why);
-    if (s == RB_OK)
-        s = rb_bond_create(cover, core, core_material, &bond, why);
-    return s == RB_OK ? create(cover, material, 1, INFINITY, bond, system, why) : s;
+    return rb_bem_system_make(mesh, material, dense, INFINITY, NULL, system, why);
 }
 
 rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
                                       double compression, rb_bem_system **system, rb_message *why)
 {
-    return create(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, compression, NULL, system, why);
+    return rb_bem_system_make(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, compression, NULL,
+                              system, why);
 }
 
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,

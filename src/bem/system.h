@@ -2,11 +2,12 @@
 #ifndef ROLLBEM_BEM_SYSTEM_H
 #define ROLLBEM_BEM_SYSTEM_H
 
-#include "bem/bond.h"
-#include "bem/hierarchical.h"
-#include "bem/bem.h"
+#include "bem/boundary.h"
 
 #include <lapacke.h>
+
+typedef struct rb_hierarchical rb_hierarchical;
+typedef struct rb_bond rb_bond;
 
 /* Unknowns: the displacement where the traction is given or kept, else the traction,
  * measured in shear/length of the element so that all columns of A are of order one.
@@ -28,6 +29,20 @@ struct rb_bem_system {
     double tolerance; /* of a hierarchical matrix */
     double rcond, seconds_assembly, seconds_factor;
 };
+
+/* The unknowns are numbered around the body from the neighbour of the upstream element on.  Those
+ * of the contact and of the upstream element, which alone are wanted (B5), come last: back
+ * substitution gives them first and stops there. */
+static inline double *rb_bem_system_column(const rb_bem_system *s, int dof)
+{
+    return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
+}
+
+/* As rb_bem_system_create_within, the matrix dense or hierarchical; bond: to an elastic core, taken
+ * over; NULL: none. */
+rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                             double compression, rb_bond *bond, rb_bem_system **system,
+                             rb_message *why);
 
 /* As rb_bem_system_create, the matrix dense or hierarchical at any size: to compare. */
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,

@@ -1,6 +1,8 @@
 /* Displacements and tractions of all elements, from a system that is factored: x, the unknowns, and
  * what the conditions give. */
 #include "bem/assemble.h"
+#include "bem/bond.h"
+#include "bem/hierarchical.h"
 #include "bem/system.h"
 #include "base/blas.h"
 

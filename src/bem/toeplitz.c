@@ -4,6 +4,7 @@
  * numbers. */
 #include "bem/fourier.h"
 #include "bem/internal.h"
+#include "bem/surface.h"
 #include "bem/wheel.h"
 
 #include <float.h>

@@ -8,6 +8,7 @@
 
 #include "bem/internal.h"
 #include "bem/layer.h"
+#include "bem/surface.h"
 #include "bem/wheel.h"
 
 #include <cblas.h>

@@ -95,9 +95,3 @@ double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
     return kind->datum ? kind->datum(rc, body) : NAN;
 }
-
-rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                     double length[RB_ROLLING_TERMS])
-{
-    return rb_rolling_kind_of(body)->surface(rc, body, length);
-}

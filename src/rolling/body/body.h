@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_BODY_BODY_H
 #define ROLLBEM_ROLLING_BODY_BODY_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 #include "rolling/case/inputs.h"
 
 /* Properties of a body, as bits. */

@@ -1,5 +1,6 @@
 /* Half-planes, which have translation symmetry: of one material, as a layer on a base,
  * and viscoelastic. */
+#include "bem/bem.h"
 #include "rolling/body/gap.h"
 #include "rolling/body/internal.h"
 #include "rolling/case/derived.h"

@@ -2,6 +2,7 @@
  * midpoints and beyond them. */
 #include "rolling/body/former_place.h"
 #include "rolling/body/internal.h"
+#include "rolling/body/surface.h"
 
 #include <cblas.h>
 #include <string.h>

@@ -43,7 +43,7 @@ struct rb_rolling_body_kind {
     rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                             const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                             rb_rolling_body_flexibility *one_body, rb_message *why);
-    /* The half-plane or layer that answers like the body close to a load. */
+    /* The half-plane or layer that answers like the body close to a load (surface.h). */
     rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
                               double length[RB_ROLLING_TERMS]);
     /* Depth of zero displacement; NULL: not defined. */
@@ -103,10 +103,6 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
 /* The given datum of a half-plane, or 2R/e with R of the body (of A for a plane); NAN if
  * displacements are not relative to a datum: wheels, and layers on a rigid base. */
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
-/* The half-plane or layer that answers like the body close to a load.  length: array for
- * the lengths V tau, which the surface borrows, like the ratios of the body. */
-rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                     double length[RB_ROLLING_TERMS]);
 
 /* ---- body_memory.c -------------------------------------------------------------- */
 

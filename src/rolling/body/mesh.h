@@ -26,15 +26,6 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
 
 /* The worn depth at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
-/* How much the largest pressure rises where elements get so many times shorter, because
- * the slope of the worn table, or of the gap's, turns by s at a corner between `from` and
- * `to`: there the pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next one. */
-double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
-                                  double times);
-/* The same in the patches of a solution, in mm, N, MPa, but for corners so near an edge that the
- * surface is pressed on one side of them only. */
-double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                  double times);
 /* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,
                                double *gap);
@@ -51,6 +42,18 @@ rb_status rb_rolling_check_extent(const rb_rolling_case *rc, double from, double
                                   rb_message *why);
 /* Zeros for n elements.  RB_ENOMEM. */
 rb_status rb_rolling_mesh_alloc(int n, rb_rolling_mesh *mesh);
+
+/* ---- corners.c ------------------------------------------------------------------ */
+
+/* How much the largest pressure rises where elements get so many times shorter, because
+ * the slope of the worn table, or of the gap's, turns by s at a corner between `from` and
+ * `to`: there the pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next one. */
+double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
+                                  double times);
+/* The same in the patches of a solution, in mm, N, MPa, but for corners so near an edge that the
+ * surface is pressed on one side of them only. */
+double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                  double times);
 
 /* ---- mesh_graded.c -------------------------------------------------------------- */
 

@@ -1,6 +1,7 @@
 /* Bodies that are slightly others than those of a model, under the model's tractions: how much more
  * they displace, without flexibilities of their own where they have boundary elements
  * (theory-bodies.md, B13).  A body that stays costs nothing. */
+#include "bem/bem.h"
 #include "rolling/body/internal.h"
 #include "rolling/body/perturbation.h"
 

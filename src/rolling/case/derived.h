@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_CASE_DERIVED_H
 #define ROLLBEM_ROLLING_CASE_DERIVED_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 #include "rolling/case/inputs.h"
 
 /* The most of each that a case may ask for: elements of the contact and on the circle outside

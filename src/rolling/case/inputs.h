@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_ROLLING_CASE_INPUTS_H
 #define ROLLBEM_ROLLING_CASE_INPUTS_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 #include "rollbem/rolling.h"
 
 typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE, RB_GAP_WAVE } rb_rolling_gap;

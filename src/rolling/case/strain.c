@@ -1,5 +1,6 @@
 /* Strains that follow from the inputs: how much a layer, cover or rim is compressed, and what
  * stress along the surfaces stretches them by (U1). */
+#include "bem/bem.h"
 #include "rolling/body/body.h"
 #include "rolling/case/internal.h"
 

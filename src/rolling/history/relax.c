@@ -4,6 +4,7 @@
  * with the material and are zero where there was no load, while displacements are nonzero
  * everywhere. */
 #include "rolling/body/internal.h"
+#include "rolling/body/surface.h"
 #include "rolling/case/derived.h"
 #include "rolling/history/internal.h"
 

@@ -1,5 +1,6 @@
 /* Flash temperature: friction heats the surfaces on their way through the contact
  * (theory-rolling.md 4.8). */
+#include "bem/bem.h"
 #include "lcp/contact/contact.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/heat.h"

@@ -1,4 +1,5 @@
 /* Whether the elements resolve a layer or cover, and whether it is crushed. */
+#include "bem/bem.h"
 #include "rolling/body/body.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/model.h"

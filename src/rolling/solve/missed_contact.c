@@ -2,6 +2,7 @@
  * may touch at places without elements (theory-solvers.md 5.1). */
 #include "rolling/body/internal.h"
 #include "rolling/body/mesh.h"
+#include "rolling/body/surface.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/zone.h"

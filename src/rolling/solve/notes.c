@@ -2,6 +2,7 @@
  * state as solved whether its sentence holds, and writes it; the table at the end has all of
  * them, those that change the meaning of the result first.  tests/test_sentences.c has a case
  * that must say it, and a near one that must not, for each. */
+#include "bem/bem.h"
 #include "base/units.h"
 #include "rolling/body/internal.h"
 #include "rolling/body/interpolant.h"

@@ -1,6 +1,7 @@
 /* Subsurface stress of body A (B8): closed-form strips on the half-plane, with the waves
  * of its layer (L5), waves around a cover (B20), Somigliana's identity on a wheel. */
 #include "rolling/body/internal.h"
+#include "rolling/body/surface.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/field.h"
 #include "rolling/solve/model.h"

@@ -3,6 +3,7 @@
 #include "rolling/body/far_field.h"
 #include "rolling/body/perturbation.h"
 #include "rolling/body/mesh.h"
+#include "rolling/body/surface.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law_iteration.h"

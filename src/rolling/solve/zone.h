@@ -20,6 +20,13 @@ rb_status rb_rolling_solve_punch(rb_rolling_model *model, rb_message *why);
 void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
                            double *level);
 
+/* ---- low_gap.c ------------------------------------------------------------------ */
+
+/* Between first_x and last_x the interval about the lowest place in which the gap is at most `rise`
+ * above that, and no more than the approach; the smallest gap, and the level of the ends. */
+void rb_rolling_low_gap(const rb_rolling_case *rc, double first_x, double last_x, double rise,
+                        double *from, double *to, double *least, double *level);
+
 /* ---- missed_contact.c ----------------------------------------------------------- */
 
 enum { RB_MOST_OVERLAPS = 16 };
