@@ -175,6 +175,11 @@ TEST(results_are_valid)
         /* next to incompressible, ut is rounding of un */
         "--support hub --mu 0.3 --mesh fitted --contact-elements 45 --load 100 "
         "--poisson 0.49 --young-b 1e5 --radius-b 80",
+        /* its moment is rounding, and does not say from which step on it is steady */
+        "--support halfplane --radius 311.738 --young 53.0919 --poisson -0.99 --radius-b "
+        "182.150383828 --young-b 102.984482106 --poisson-b -0.199681 --approach 0.60666 --mu 1e-9 "
+        "--gap parabola --formulation transient --creep-ratio -0.0438487 --distance 0.449681 "
+        "--steps 2 --states --contact-elements 24",
         /* apart, with all but nothing left of what was there before */
         "--support halfplane --history heal.txt --states --contact-elements 12 "
         "--relaxation-time 0.01 --relaxation-ratio 1 --friction-law exponential --mu-fall 0.1 "

@@ -6,7 +6,7 @@
 #include <gsl/gsl_math.h>
 #include <string.h>
 
-static const double STEADY = 1e-3, NOTHING = 1e-9;
+static const double STEADY = 1e-3, NOTHING = 1e-9, ROUNDING = 1e-13;
 
 rb_status rb_rolling_steady_create(int n, rb_arena *memory, rb_rolling_steady *s)
 {
@@ -68,7 +68,8 @@ void rb_rolling_steady_see(rb_rolling_steady *s, const rb_rolling_model *model,
         if (isfinite(part))
             s->largest[i] = fmax(s->largest[i], part);
         least[i] = value[i].per * (value[i].fades ? fmax(s->largest[i], NOTHING) : 1.0);
-        if (s->row >= 0)
+        /* a moment may be rounding of the pressure's where friction is next to nothing */
+        if (s->row >= 0 && fabs(value[i].now - s->value[i]) > ROUNDING * value[i].per)
             most = fmax(most, apart(value[i].now, s->value[i], least[i]));
     }
     if (s->row >= 0)
