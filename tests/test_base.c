@@ -212,6 +212,43 @@ TEST(only_characters_are_printed)
 }
 
 /* A third of the letters may be wrong: left out, one more, another one, two swapped. */
+/* The first of 15, 16 and 17 digits that reads back. */
+static void check_number_text(double x)
+{
+    char want[40], got[RB_NUMBER_TEXT];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(want, sizeof want, "%.*g", digits, x);
+        if (strtod(want, NULL) == x)
+            break;
+    }
+    assert_string_equal(rb_number_text(x, got), want);
+}
+
+TEST(numbers_have_the_fewest_digits_that_read_back)
+{
+    static const double ends[] = {0.0,     -0.0,    0.1,    1e15,   999999999999999.9,  1e-4,
+                                  9.99e-5, 1e22,    5e-324, 1e23,   9007199254740993,   0.3,
+                                  1e-11,   2.2e-16, 1e308,  123456, 0.5000000000000001, 1e16};
+    uint64_t seed = 88172645463325252;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+        for (int side = -1; side <= 1; side++)
+            check_number_text(side ? nextafter(ends[k], side * INFINITY) : ends[k]);
+    for (int e = -1074; e < 1024; e++) /* with neighbours that are not equally far */
+        check_number_text(-ldexp(1.0, e));
+    for (int k = 0; k < 40000; k++) {
+        double x;
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        memcpy(&x, &seed, sizeof x);
+        if (isfinite(x))
+            check_number_text(x);
+        check_number_text(ldexp((double)(seed >> 12), -(int)(seed % 64)));
+        check_number_text((double)(seed >> 40) / pow(10.0, (double)(seed % 20)));
+        check_number_text((double)(seed >> 12) + 0.5); /* halfway between decimals */
+    }
+}
+
 TEST(misspelt_words_are_guessed)
 {
     static const char *const names[] = {"creep", "load", "load-factor", "mu"};

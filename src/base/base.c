@@ -281,15 +281,3 @@ uint64_t rb_hash(uint64_t hash, const void *data, size_t size)
         hash = (hash ^ byte[k]) * UINT64_C(1099511628211);
     return hash;
 }
-
-char *rb_number_text(double x, char text[RB_NUMBER_TEXT])
-{
-    /* a decimal of 15 digits or fewer survives the way to binary and back, and %g drops
-     * zeros, so that the first of these three that reads back is the shortest */
-    for (int digits = 15; digits <= 17; digits++) {
-        rb_format(text, RB_NUMBER_TEXT, "%.*g", digits, x);
-        if (rb_read_number(text, NULL) == x)
-            break;
-    }
-    return text;
-}
