@@ -171,7 +171,8 @@ TEST(doors_and_refusals)
     check_refused("curve " LAYER "--mu 0.3 --max-pressure 20", 64, "give --load");
     check_refused(LAYER "--mu 0.3 --max-pressure 20 --error", 64, "error bars only where Hertz");
     check_refused(LAYER "--max-pressure 20 --contact-elements 20 --derivatives", 64,
-                  "derivatives: under --max-pressure");
+                  "Hertz's formula says the load; here it is searched for, and another input would "
+                  "have another load. At a fixed one: --load ");
     write_file("loads.txt", "load shift\n100 0\n");
     check_refused(FLAT "--max-pressure 20 --history loads.txt", 64,
                   "the history has a column load");
