@@ -233,7 +233,7 @@ TEST(marked_programs_alone_look_inside)
 
 /* ---- Calls between files ----------------------------------------------------------- */
 
-enum { FILES = 400, SYMBOLS = 10000, WORD = 120 };
+enum { FILES = 500, SYMBOLS = 10000, WORD = 120 };
 
 static struct {
     int files, symbols;

@@ -74,6 +74,17 @@ const char *rb_case_keep(rb_case *c, const char *text);
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
                                rb_message *why);
 
+/* The same of an option that is given. */
+rb_status rb_case_refuse_option(const rb_case *c, const rb_option *o, const char *reason,
+                                rb_message *why);
+/* An option that means nothing to a case, where that is so; the first of n that is given is
+ * refused. */
+typedef struct {
+    int has_no_meaning;
+    const char *option, *reason;
+} rb_case_rule;
+rb_status rb_case_refuse_by(const rb_case *c, size_t n, const rb_case_rule *rules, rb_message *why);
+
 /* Reports an error in a file; if c is confined, the message does not contain the content
  * of the file. */
 rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s, rb_message *why);
@@ -92,6 +103,14 @@ extern const char *const rb_case_of_layers[2][CASE_OF_LAYERS];
 rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
+
+/* ---- given_bodies.c, purpose.c ------------------------------------------------------ */
+
+/* Both bodies of the resolved case, with their layers. */
+rb_status rb_case_resolve_bodies(rb_case *c, rb_message *why);
+/* Options that cases of this purpose never take, and values that mean nothing to it. */
+rb_status rb_case_check_never_taken(const rb_case *c, rb_message *why);
+rb_status rb_case_check_purpose(const rb_case *c, rb_message *why);
 
 /* ---- resolve.c ---------------------------------------------------------------------- */
 
