@@ -1,23 +1,11 @@
-/* Wheels as rings, by their waves around the circumference (B12): covers on a core, what relaxes in
- * steady rolling (V8), and the half-plane that answers like a wheel near to a load (B10). */
+/* Wheels as rings, by their waves around the circumference (B12): what covers are computed by, what
+ * relaxes in steady rolling (V8), and the half-plane that answers like a wheel near to a load
+ * (B10). */
 #include "bem/bem.h"
 #include "rolling/body/wheel.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
-
-const char rb_rolling_of_rings[] = "hub-ratio,cover-thickness,radius",
-           rb_rolling_of_rings_b[] = "hub-ratio-b,cover-thickness-b,radius-b";
-
-int rb_rolling_has_elastic_core(const rb_rolling_body *body)
-{
-    return body->cover > 0.0 && body->core_young > 0.0;
-}
-
-int rb_rolling_goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
-{
-    return body->cover > 0.0 && rc->near_field == RB_NEAR_FIELD_AUTO;
-}
 
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                  double length[RB_ROLLING_TERMS])
@@ -107,45 +95,3 @@ rb_status rb_rolling_wheel_near(const rb_rolling_case *rc, const rb_rolling_plan
     free(arc);
     return s;
 }
-
-/* ---- A cover on a core ------------------------------------------------------------- */
-
-static int has_cover(const rb_rolling_body *body)
-{
-    return body->cover > 0.0;
-}
-
-static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
-                             rb_message *why)
-{
-    const char *thickness = *which ? "cover-thickness-b" : "cover-thickness";
-    if (b->cover != 0.0 && b->support != RB_BEM_HUB)
-        return rb_refuse(why, thickness, "its core holds the wheel, add --support%s hub", which);
-    if (!(b->cover < fabs(b->radius)))
-        return rb_refuse(why, thickness, "expected less than the radius, %g mm, got %g mm",
-                         b->radius, b->cover);
-    /* boundary elements hardly tell how an incompressible cover presses on its core all around */
-    if (rb_rolling_has_elastic_core(b) && !rb_rolling_goes_by_waves(rc, b) &&
-        rb_rolling_material(rc, b).poisson > RB_ROLLING_COMPRESSIBLE)
-        return rb_refuse(
-            why, *which ? "near-field,poisson-b" : "near-field,poisson",
-            "boundary elements of a cover on an elastic core need --poisson%s of 0.499 "
-            "at most, got %g; leave --near-field out",
-            which, b->poisson);
-    return rb_rolling_has_elastic_core(b)
-               ? rb_rolling_check_poisson(rc, *which ? "core-poisson-b" : "core-poisson",
-                                          b->core_poisson, why)
-               : RB_OK;
-}
-
-static const rb_rolling_parameter cover_parameters[] = {
-    {"core-young", has_cover, "a core has its cover on it, see --cover-thickness"},
-    {"core-poisson", has_cover, "a core has its cover on it, see --cover-thickness"},
-    {.option = NULL}};
-
-const rb_rolling_body_kind rb_rolling_cover = {.name = "cover",
-                                               .support = RB_BEM_HUB,
-                                               .holds = has_cover,
-                                               .can = RB_BODY_WHEEL | RB_BODY_TURNS,
-                                               .parameters = cover_parameters,
-                                               .check = check_cover};

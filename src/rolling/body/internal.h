@@ -68,7 +68,10 @@ extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 /* Poisson's ratio up to which boundary elements compute a cover on an elastic core. */
 #define RB_ROLLING_COMPRESSIBLE 0.499
 /* 1: a cover with an elastic core. */
-int rb_rolling_has_elastic_core(const rb_rolling_body *body);
+static inline int rb_rolling_has_elastic_core(const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && body->core_young > 0.0;
+}
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
 extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer, rb_rolling_relaxation;
 rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,

@@ -9,7 +9,10 @@
 
 /* 1: by waves, without boundary elements: around a cover nothing changes with the angle.  Boundary
  * elements where they are asked for. */
-int rb_rolling_goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body);
+static inline int rb_rolling_goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && rc->near_field == RB_NEAR_FIELD_AUTO;
+}
 rb_status rb_rolling_flexibility_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body,
                                           const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
                                           rb_message *why);

@@ -94,7 +94,7 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
 {
     const int n = p->n, m = n + 1;
     const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
-    const double strain = rb_rolling_bulk_strain(rc);
+    const double strain = rb_rolling_is_strained(rc) ? rb_rolling_bulk_strain(rc) : 0.0;
 
     for (int i = 0; i < n; i++) {
         p->d_T[i] = p->differences ? w0_T[i] - w0_T[i + 1] : w0_T[i];
