@@ -536,7 +536,7 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
 {
     enum { STARTS = 6 };
     int row_of = -1, point = -1;
-    double limit = INFINITY;
+    double limit = INFINITY, largest = best->value;
 
     for (int k = 0; k < STARTS; k++) {
         /* The highest peak that is lower than the last one, or behind it. */
@@ -588,9 +588,10 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
         /* of two that rounding alone tells apart, as in a symmetric contact, that on the right */
         double xy[2];
         to_xy(f, r->in, place[0], place[1], xy);
-        const double same = isfinite(best->value) ? 1e-7 * fabs(best->value) : 0.0;
-        if (top > best->value + same || (top >= best->value - same && xy[0] > best->x))
-            *best = (rb_rolling_extremum){fmax(top, best->value), xy[0], xy[1], r->in->material};
+        const double same = isfinite(largest) ? 1e-7 * fabs(largest) : 0.0;
+        if (top > largest + same || (top >= largest - same && xy[0] > best->x))
+            *best = (rb_rolling_extremum){top, xy[0], xy[1], r->in->material};
+        largest = fmax(largest, top);
     }
     return RB_OK;
 }
