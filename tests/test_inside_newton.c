@@ -218,7 +218,10 @@ static int direct(rb_contact_problem *p, rb_contact_unknowns unknowns, rb_contac
     CHECK_OK(rb_contact_reduced_alloc(p, unknowns, s, r));
     rb_contact_reduced_clear(p, r, s);
     rb_contact_reduced_right_side(p, s, r);
-    CHECK_OK(rb_contact_reduced_direct(p, s->zone, lu, r));
+    rb_contact_elimination *elimination;
+    CHECK_OK(rb_contact_elimination_begin(p, s->zone, lu, r, &elimination));
+    rb_contact_elimination_solve(elimination, r);
+    rb_contact_elimination_end(elimination);
     return r->changes;
 }
 

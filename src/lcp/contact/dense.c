@@ -91,16 +91,16 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
     if (by_products.op && by_products.op->kind->solve(&by_products, state, r) == RB_OK)
         return RB_OK;
     for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !converged; lu++) {
+        rb_contact_elimination *elimination;
         double size = 0.0;
         int passes = PASSES;
 
-        s = RB_OK;
         rb_contact_reduced_clear(p, r, state);
+        s = rb_contact_elimination_begin(p, state->zone, (rb_contact_lu)lu, r, &elimination);
         for (int pass = 0; pass < passes && s == RB_OK && !converged; pass++) {
             rb_contact_reduced_right_side(p, state, r);
-            s = rb_contact_reduced_direct(p, state->zone, (rb_contact_lu)lu, r);
-            if (s == RB_OK)
-                s = rb_contact_reduced_add(p, r, state);
+            rb_contact_elimination_solve(elimination, r);
+            s = rb_contact_reduced_add(p, r, state);
             if (s != RB_OK)
                 break;
             const double change = rb_norm_inf((size_t)r->size, r->x);
@@ -110,6 +110,7 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
             passes = r->slight > 0 ? PASSES_SLIGHT : PASSES;
             size = fmax(size, change);
         }
+        rb_contact_elimination_end(elimination);
     }
     return s;
 }

@@ -28,9 +28,16 @@ void rb_contact_factors_move(rb_contact_factors *factors, double from, double to
  * the tractions alone may have no inverse where the load or the force is given. */
 typedef enum { RB_LU_KEPT, RB_LU_NEW, RB_LU_WHOLE, RB_LU_KINDS } rb_contact_lu;
 
-/* One solve of the reduced problem.  RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_contact_reduced_direct(const rb_contact_problem *problem, const int *zone,
-                                    rb_contact_lu lu, rb_contact_reduced *r);
+/* The reduced problem of some zones, for several right-hand sides one after the other: what has
+ * changed since the LU is eliminated once. */
+typedef struct rb_contact_elimination rb_contact_elimination;
+/* Borrows the problem and its factors.  RB_SINGULAR, RB_ENOMEM: *elimination is NULL. */
+rb_status rb_contact_elimination_begin(const rb_contact_problem *problem, const int *zone,
+                                       rb_contact_lu lu, rb_contact_reduced *r,
+                                       rb_contact_elimination **elimination);
+/* r->x: the right-hand side, then the solution; r->growth: how many digits have cancelled. */
+void rb_contact_elimination_solve(rb_contact_elimination *elimination, rb_contact_reduced *r);
+void rb_contact_elimination_end(rb_contact_elimination *elimination);
 
 /* pairs.c: F and S of the elements in pairs; a pair has one traction, the mean gap and
  * slip. */

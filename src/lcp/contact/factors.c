@@ -8,6 +8,7 @@
 #include <float.h>
 #include <lapacke.h>
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -251,10 +252,21 @@ static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r
 
 /* ---- Solving ----------------------------------------------------------------------- */
 
-/* Columns V and f, rows W, T and g. */
+/* Columns V, later A^-1 V, rows W and the corner T, later the LU of T - W A^-1 V. */
 typedef struct {
-    double *V, *f, *W, *T, *g;
+    double *V, *W, *T;
 } bordered;
+
+struct rb_contact_elimination {
+    const rb_contact_problem *p;
+    const kept_lu *k;
+    kept_lu none; /* all unknowns are borders then */
+    plan plan;
+    bordered m;
+    double *f; /* with g behind it */
+    lapack_int *pivots;
+    rb_arena memory;
+};
 
 static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r, const kept_lu *k,
                         const plan *pl, const bordered *m)
@@ -287,75 +299,103 @@ static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r
     }
 }
 
-/* (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel.  pivots: count. */
-static rb_status eliminate(const kept_lu *k, int count, const bordered *m, lapack_int *pivots,
-                           double *growth)
+void rb_contact_elimination_end(rb_contact_elimination *e)
 {
-    const int n = k->size;
-
-    if (n > 0)
-        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots, m->V, n);
-    *growth = rb_norm_inf((size_t)n, m->f);
-    if (n > 0 && count > 0) {
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0, m->W, count,
-                    m->V, n, 1.0, m->T, count);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, count, n, -1.0, m->W, count, m->f, 1, 1.0, m->g,
-                    1);
-    }
-    const lapack_int fault = count == 0 ? 0
-                                        : LAPACKE_dgesv_work(LAPACK_COL_MAJOR, count, 1, m->T,
-                                                             count, pivots, m->g, count);
-    if (n > 0 && count > 0)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0, m->f, 1);
-    *growth /= fmax(rb_norm_inf((size_t)n, m->f), DBL_MIN);
-    return fault == 0 ? RB_OK : RB_SINGULAR;
+    if (e)
+        rb_arena_free(&e->memory);
+    free(e);
 }
 
-rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
-                                    rb_contact_reduced *r)
+/* Borders and LU for the zones. */
+static rb_status begin(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
+                       rb_contact_reduced *r, rb_contact_elimination *e)
 {
-    kept_lu none = {0}; /* all unknowns are borders then */
-    rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;
-    kept_lu *k = lu == RB_LU_WHOLE ? &none : &factors->kept[r->unknowns - 1];
-    rb_arena scratch = {0};
+    rb_contact_factors *factors = ((rb_contact_dense *)p->op)->factors;
+    kept_lu *k = lu == RB_LU_WHOLE ? &e->none : &factors->kept[r->unknowns - 1];
+    plan *pl = &e->plan;
+    bordered *m = &e->m;
     /* All arrays at their largest: every kept unknown lapsed, every present one new. */
     const size_t size = (size_t)r->size + 1;
-    plan pl = {.unknown = rb_arena_zeros(&scratch, size, sizeof *pl.unknown),
-               .source = rb_arena_ints(&scratch, size),
-               .border = rb_arena_zeros(&scratch, size + (size_t)k->size, sizeof *pl.border)};
 
-    if (scratch.failed)
-        return rb_arena_done(&scratch, RB_ENOMEM);
-    make_plan(p, zone, r, k, &pl);
+    e->p = p;
+    e->k = k;
+    pl->unknown = rb_arena_zeros(&e->memory, size, sizeof *pl->unknown);
+    pl->source = rb_arena_ints(&e->memory, size);
+    pl->border = rb_arena_zeros(&e->memory, size + (size_t)k->size, sizeof *pl->border);
+    if (e->memory.failed)
+        return RB_ENOMEM;
+    make_plan(p, zone, r, k, pl);
     /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
      * steps: least in sum where b is about the root of twice the size. */
     if (lu == RB_LU_NEW || (lu == RB_LU_KEPT && k->along != along_of(p)) ||
-        (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
-        const rb_status s = factor(p, r, pl.unknown, k);
+        (lu == RB_LU_KEPT && !((double)pl->changes * pl->changes <= 2.0 * k->size))) {
+        const rb_status s = factor(p, r, pl->unknown, k);
         if (s != RB_OK)
-            return rb_arena_done(&scratch, s);
-        make_plan(p, zone, r, k, &pl);
+            return s;
+        make_plan(p, zone, r, k, pl);
     }
-    r->changes = k->size > 0 ? pl.changes : 0;
-    r->slight = k->size > 0 ? pl.slight : 0;
-    const size_t n = (size_t)k->size, count = (size_t)pl.count;
-    bordered m = {.V = rb_arena_doubles(&scratch, n * (count + 1) + count, 1),
-                  .W = rb_arena_doubles(&scratch, count, n),
-                  .T = rb_arena_doubles(&scratch, count, count)};
-    lapack_int *pivots = rb_arena_zeros(&scratch, count, sizeof *pivots);
+    r->changes = k->size > 0 ? pl->changes : 0;
+    r->slight = k->size > 0 ? pl->slight : 0;
+    const int n = k->size, count = pl->count;
+    m->V = rb_arena_doubles(&e->memory, (size_t)n, (size_t)count);
+    m->W = rb_arena_doubles(&e->memory, (size_t)count, (size_t)n);
+    m->T = rb_arena_doubles(&e->memory, (size_t)count, (size_t)count);
+    e->f = rb_arena_doubles(&e->memory, (size_t)(n + count), 1);
+    e->pivots = rb_arena_zeros(&e->memory, (size_t)count, sizeof *e->pivots);
+    if (e->memory.failed)
+        return RB_ENOMEM;
+    fill_border(p, r, k, pl, m);
+    if (count == 0)
+        return RB_OK;
+    if (n > 0) {
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count, k->LU, n, k->pivots, m->V, n);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0, m->W, count,
+                    m->V, n, 1.0, m->T, count);
+    }
+    return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, count, count, m->T, count, e->pivots) == 0
+               ? RB_OK
+               : RB_SINGULAR;
+}
 
-    if (scratch.failed)
-        return rb_arena_done(&scratch, RB_ENOMEM);
-    m.f = m.V + n * count; /* with g behind it */
-    m.g = m.f + n;
-    const double missing_load = r->load ? r->x[r->contacts + r->sticks] * p->load : 0.0;
+rb_status rb_contact_elimination_begin(const rb_contact_problem *p, const int *zone,
+                                       rb_contact_lu lu, rb_contact_reduced *r,
+                                       rb_contact_elimination **elimination)
+{
+    rb_contact_elimination *e = *elimination = calloc(1, sizeof *e);
+    const rb_status s = e ? begin(p, zone, lu, r, e) : RB_ENOMEM;
+
+    if (s != RB_OK) {
+        rb_contact_elimination_end(e);
+        *elimination = NULL;
+    }
+    return s;
+}
+
+void rb_contact_elimination_solve(rb_contact_elimination *e, rb_contact_reduced *r)
+{
+    const kept_lu *k = e->k;
+    const int n = k->size, count = e->plan.count;
+    double *f = e->f, *g = f + n;
+    const double along = along_of(e->p),
+                 missing_load = r->load ? r->x[r->contacts + r->sticks] * e->p->load : 0.0;
+
+    memset(f, 0, (size_t)(n + count) * sizeof *f);
     for (int i = 0; i < r->size; i++)
-        m.f[pl.source[i]] = r->x[i];
-    fill_border(p, r, k, &pl, &m);
-    const rb_status s = eliminate(k, pl.count, &m, pivots, &r->growth);
+        f[e->plan.source[i]] = r->x[i];
+    if (n > 0)
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, k->LU, n, k->pivots, f, n);
+    r->growth = rb_norm_inf((size_t)n, f);
+    if (count > 0) {
+        if (n > 0)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, count, n, -1.0, e->m.W, count, f, 1, 1.0, g,
+                        1);
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', count, 1, e->m.T, count, e->pivots, g, count);
+        if (n > 0)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, e->m.V, n, g, 1, 1.0, f, 1);
+    }
+    r->growth /= fmax(rb_norm_inf((size_t)n, f), DBL_MIN); /* the digits that cancel */
     for (int i = 0; i < r->size; i++)
-        r->x[i] = m.f[pl.source[i]];
+        r->x[i] = f[e->plan.source[i]];
     if (r->load)
-        r->x[r->contacts + r->sticks] -= along_of(p) * missing_load / p->gap_length;
-    return rb_arena_done(&scratch, s);
+        r->x[r->contacts + r->sticks] -= along * missing_load / e->p->gap_length;
 }
