@@ -186,6 +186,12 @@ TEST(every_failed_allocation_is_reported)
         refused = REFUSED_FROM(
             count, rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
     }
+    for (int count = 0, refused = 1; refused; count++) {
+        const double r[8] = {1.0};
+        double w[10], w0[10];
+        refused = REFUSED_FROM(count, rb_bem_displacement_subtracted(
+                                          system, RB_BEM_NORMALS_OBSTACLE, 1, r, w, w0, NULL));
+    }
     const double x[] = {0.0, 0.1, 1.0}, p[] = {0.0, 2.0, 0.0}, q[] = {0.0, 0.1, 0.0};
     const rb_bem_edge_load load = {3, x, p, q};
     for (int count = 0, refused = 1; refused; count++) {

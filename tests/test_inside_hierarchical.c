@@ -172,6 +172,25 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
     CHECK_OK((subtracted ? rb_bem_condense_subtracted
                          : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f, &message));
     CHECK_OK(rb_bem_flexibility_matrix(&f, F, 2 * (CONTACT + 1)));
+    if (!subtracted)
+        return;
+    /* the same under two loads alone */
+    enum { ROWS = 2 * (CONTACT + 1), LOADS = 2, N = 2 * CONTACT };
+    double r[LOADS * N], w[LOADS * ROWS], w0[ROWS];
+    for (int j = 0; j < LOADS * N; j++)
+        r[j] = j < N ? sin(1.0 + j) : j == N + 3;
+    CHECK_OK(
+        rb_bem_displacement_subtracted(system, RB_BEM_NORMALS_OBSTACLE, LOADS, r, w, w0, &message));
+    for (int i = 0; i < LOADS * ROWS; i++) {
+        double want = 0.0, size = 0.0;
+        for (int j = 0; j < N; j++) {
+            const double part = F[i % ROWS + j * ROWS] * r[i / ROWS * N + j];
+            want += part;
+            size += fabs(part);
+        }
+        CHECK_ABS(w[i], want, 1e-10 * size, "row %d of load %d", i % ROWS, i / ROWS);
+        CHECK_ABS(w0[i % ROWS], f.w0[i % ROWS], 1e-12 * size, "row %d without loads", i % ROWS);
+    }
 }
 
 /* Neighbours that differ by orders of length, both supports, and loads whose singular

@@ -462,7 +462,7 @@ TEST(a_far_field_moves_from_mesh_to_mesh)
         for (int i = 0; i < 2; i++) {
             rb_rolling_far_field *far;
             rb_rolling_bodies near;
-            CHECK_OK(rb_rolling_far_field_create(of[i], &far, &message));
+            CHECK_OK(rb_rolling_far_field_create(of[i], 0, &far, &message));
             CHECK_OK(rb_rolling_bodies_near(&rc, far, &fitted.mesh, &near, &message));
             CHECK_MAX(largest_difference(&near, &fitted.bodies), i ? 3e-3 : 1e-3, "row %zu", k);
             for (int j = 0; j < near.f.m; j++) {
@@ -471,6 +471,54 @@ TEST(a_far_field_moves_from_mesh_to_mesh)
             }
             rb_rolling_bodies_free(&near);
             rb_rolling_far_field_free(far);
+        }
+    }
+}
+
+/* A far field of boundaries that are solved for it alone is that of their matrix, and where it is
+ * matched it moves the elements under the tractions of the model as the boundaries do. */
+TEST(a_far_field_needs_few_loads_of_the_boundaries)
+{
+    static const char *const rows[] = {"support hub hub-ratio 0.3",
+                                       "support arc young-b 1e5 interlayer-normal 1e-5",
+                                       "support arc young-b 1e5 support-b hub radius-b 30"};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const rb_rolling_case rc = with(with(rb_rolling_case_defaults(),
+                                             "gap parabola formulation steady mesh fitted "
+                                             "creep-ratio 0.4 half-width 2 contact-elements 40"),
+                                        "%s", rows[k]);
+        OWNED(rb_rolling_model) whole = solved_model(&rc), led;
+        const rb_bem_flexibility *f = &whole.bodies.f;
+        const rb_rolling_elements elements = {.n = f->n, .x = f->x, .h = f->h};
+        rb_rolling_far_field *far[2];
+        rb_rolling_bodies near[2];
+        rb_rolling_mesh mesh;
+        const size_t n = (size_t)f->n, rows_of_w = 2 * (n + 1);
+        SCRATCH double *w = rb_alloc(rows_of_w, 3);
+        CHECK_OK(rb_rolling_model_begin(&rc, NULL, &led, &message));
+        CHECK_OK(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &message));
+        CHECK_OK(rb_rolling_far_field_create(&whole, 0, &led.far, &message));
+        CHECK_OK(rb_rolling_model_build(&led, &mesh, &message));
+        assert_true(!led.bodies.system_a && !led.bodies.system_b);
+        memcpy(whole.state.p, led.state.p, n * sizeof *w);
+        memcpy(whole.state.q, led.state.q, n * sizeof *w);
+        for (int i = 0; i < 2; i++) {
+            CHECK_OK(rb_rolling_far_field_create(i ? &led : &whole, 1, &far[i], &message));
+            assert_true(rb_rolling_far_field_matches(far[i], f->n));
+            assert_false(rb_rolling_far_field_matches(far[i], f->n + 1));
+            CHECK_OK(rb_rolling_bodies_near(&rc, far[i], &led.mesh, &near[i], &message));
+            CHECK_OK(rb_rolling_displacement(&near[i], led.state.p, led.state.q,
+                                             w + (size_t)i * rows_of_w));
+        }
+        CHECK_OK(
+            rb_rolling_displacement(&whole.bodies, led.state.p, led.state.q, w + 2 * rows_of_w));
+        CHECK_MAX(largest_difference(&near[0], &near[1]), 1e-10, "row %zu", k);
+        const double size = rb_norm_inf(rows_of_w, w + 2 * rows_of_w);
+        for (size_t i = 0; i < 2 * rows_of_w; i++)
+            CHECK_ABS(w[i], w[2 * rows_of_w + i % rows_of_w], 1e-10 * size, "row %zu: %zu", k, i);
+        for (int i = 0; i < 2; i++) {
+            rb_rolling_bodies_free(&near[i]);
+            rb_rolling_far_field_free(far[i]);
         }
     }
 }

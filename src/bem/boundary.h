@@ -90,6 +90,12 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
 rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
                                      rb_bem_flexibility *f, rb_message *why);
 
+/* The same under a few loads alone, each a column (r_N, r_T) of r, 2 contact_n x loads: w, 2m x
+ * loads, is F r of that flexibility, w0 (2m) its own, m = contact_n + 1. */
+rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_normals normals,
+                                         int loads, const double *r, double *w, double *w0,
+                                         rb_message *why);
+
 /* Adds a compliant interface whose deformation at an element depends only on the traction
  * of this element: normal and tangential compliance on the diagonals of F_NN and F_TT
  * [length/stress], n values each, >= 0.  Call it after rb_bem_flexibility_pair.

@@ -14,14 +14,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Displacements of the contact and of the upstream element, the last 2m unknowns, for the
- * unit contact tractions and (last column) for the given values: all of L, but of U only
- * the last corner. */
-static rb_status solve_contact(const rb_bem_system *s, double *X)
+/* Displacements of the contact and of the upstream element, the last 2m unknowns, for so many
+ * contact tractions and (last column) for the given values: all of L, but of U only the last
+ * corner. */
+static rb_status solve_contact(const rb_bem_system *s, int loads, double *X)
 {
     if (!s->A)
-        return rb_bem_system_solve_columns(s, 2 * s->mesh.contact_n + 1, X);
-    const int n = s->dofs, ld = s->ld, loads = 2 * s->mesh.contact_n, kept = loads + 2;
+        return rb_bem_system_solve_columns(s, loads + 1, X);
+    const int n = s->dofs, ld = s->ld, kept = 2 * (s->mesh.contact_n + 1);
     const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
     const int threads = rb_blas_threads(n >= RB_BEM_LU_THREADS_FROM ? 0 : 1);
 
@@ -44,24 +44,36 @@ void rb_bem_contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals
     frame[0][0] = -frame[1][1];
 }
 
-/* Unit tractions on the contact, given values in the last column: the right-hand sides,
- * solved.  p: NULL where nothing is subtracted. */
-static rb_status solve_loads(const rb_bem_system *s, const rb_subtracted *p, double *X)
+/* Loads of the contact, given values in the last column: the right-hand sides, solved.  (B10) Where
+ * singularities are subtracted each contact element has the half-plane's solution of its load,
+ * whose logarithm at the ends of the element constant elements resolve badly; then R may combine
+ * the unit tractions, otherwise NULL. */
+static rb_status solve_loads(const rb_bem_system *s, int subtract, int loads, const double *R,
+                             double *X)
 {
-    const rb_bem_mesh *mesh = &s->mesh;
-    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)mesh->contact_n;
-    rb_status status = RB_OK;
+    const size_t rows = (size_t)s->ld;
+    rb_subtracted *p = NULL;
+    rb_status status = subtract ? rb_subtracted_create(s, &p) : RB_OK;
 
-    memcpy(X + rows * loads, s->b, (size_t)s->dofs * sizeof *X);
-    if (p)
-        status = rb_subtracted_loads(p, X);
-    else
-        memcpy(X, s->Gc, rows * loads * sizeof *X);
-    if (status == RB_OK)
-        status = solve_contact(s, X);
+    memcpy(X + rows * (size_t)loads, s->b, (size_t)s->dofs * sizeof *X);
     if (status == RB_OK && p)
-        rb_subtracted_add_strips(p, X);
+        status = rb_subtracted_loads(p, loads, R, X);
+    else if (status == RB_OK)
+        memcpy(X, s->Gc, rows * (size_t)loads * sizeof *X);
+    if (status == RB_OK)
+        status = solve_contact(s, loads, X);
+    if (status == RB_OK && p)
+        status = rb_subtracted_add_strips(p, loads, R, X);
+    if (p)
+        rb_subtracted_free(p);
     return status;
+}
+
+static rb_status not_condensed(rb_status s, int n, rb_message *why)
+{
+    return s == RB_INTERRUPTED
+               ? rb_fail(why, s, "condensation: interrupted")
+               : rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
 }
 
 /* (B5), main steps: right-hand sides, solve, rotate into the contact frame. */
@@ -77,25 +89,13 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
     rb_phase("flexibility of the contact");
-    /* (B10) For each contact element the half-plane's solution of its load, whose logarithm at the
-     * ends of the element constant elements resolve badly. */
-    rb_subtracted *p = NULL;
-    rb_status s = subtract ? rb_subtracted_create(system, &p) : RB_OK;
-
     /* A X = [Gc, b]: two unit tractions on each contact element, and the given values. */
     X = rb_large_alloc(ld, 2 * (size_t)n + 1);
-    if (!X)
-        s = RB_ENOMEM;
-    if (s == RB_OK)
-        s = solve_loads(system, p, X);
-    if (p)
-        rb_subtracted_free(p);
+    rb_status s = X ? solve_loads(system, subtract, 2 * n, NULL, X) : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);
-    if (s == RB_INTERRUPTED)
-        rb_fail(why, s, "condensation: interrupted");
-    else if (s != RB_OK)
-        rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
+    if (s != RB_OK)
+        not_condensed(s, n, why);
     /* U(i, j), 2 x 2, is the displacement of element i due to the tractions on element j in x and
      * y, the last 2 m rows of X.  In the contact frame of section 2, whose axes e_N and e_T belong
      * to each element, F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X
@@ -138,4 +138,40 @@ rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals
         return condense(system, normals, 1, f, why);
     *f = (rb_bem_flexibility){0};
     return s;
+}
+
+rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_normals normals,
+                                         int loads, const double *r, double *w, double *w0,
+                                         rb_message *why)
+{
+    const rb_bem_mesh *mesh = &system->mesh;
+    const int n = mesh->contact_n, m = n + 1, first = mesh->contact_first;
+    const size_t ld = (size_t)system->ld, units = 2 * (size_t)n;
+    rb_status s = rb_bem_check_convex(system, why);
+
+    if (s != RB_OK)
+        return s;
+    double *R = rb_alloc(units, (size_t)loads), *X = rb_large_alloc(ld, (size_t)loads + 1),
+           to[2][2];
+    s = R && X ? RB_OK : RB_ENOMEM;
+    for (int i = 0; i < n && s == RB_OK; i++) {
+        rb_bem_contact_frame(mesh, first + i, normals, to);
+        for (size_t l = 0; l < (size_t)loads; l++)
+            for (int d = 0; d < 2; d++)
+                R[2 * i + d + l * units] =
+                    to[0][d] * r[i + l * units] + to[1][d] * r[n + i + l * units];
+    }
+    if (s == RB_OK)
+        s = solve_loads(system, 1, loads, R, X);
+    for (int i = 0; i < m && s == RB_OK; i++) {
+        const double *U = X + system->dofs - 2 * m + 2 * i;
+        rb_bem_contact_frame(mesh, first + i, normals, to);
+        for (size_t l = 0; l <= (size_t)loads; l++)
+            for (int a = 0; a < 2; a++)
+                (l < (size_t)loads ? w + l * 2 * (size_t)m : w0)[a * m + i] =
+                    to[a][0] * U[l * ld] + to[a][1] * U[l * ld + 1];
+    }
+    free(R);
+    free(X);
+    return s == RB_OK ? s : not_condensed(s, n, why);
 }

@@ -37,14 +37,26 @@ static double complex strip_field(rb_bem_material material, double complex z, co
     return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
 }
 
-/* Boundary values of element k against the strip on contact element c: u_x, u_y (where
- * the displacement is given) or t_x, t_y, under its load along x and along y. */
-static void left_over(const rb_subtracted *p, int k, int c, double value[2][2])
+/* An element that strips are seen from: its midpoint and outward normal, and what is given there.
+ */
+typedef struct {
+    int k;
+    double complex z, outward;
+    int held_x, held_y;
+} seen_from;
+
+static seen_from from_element(const rb_bem_mesh *mesh, int k)
 {
-    const rb_bem_mesh *mesh = &p->s->mesh;
-    const double complex z = rb_strip_midpoint(mesh, k);
-    const int held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT;
-    const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
+    return (seen_from){k, rb_strip_midpoint(mesh, k), rb_strip_outward(mesh, k),
+                       mesh->condition[2 * k] == RB_BEM_DISPLACEMENT,
+                       mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT};
+}
+
+/* Boundary values of an element against the strip on contact element c: u_x, u_y (where
+ * the displacement is given) or t_x, t_y, under its load along x and along y. */
+static void left_over(const rb_subtracted *p, const seen_from *at, int c, double value[2][2])
+{
+    const int k = at->k, held_x = at->held_x, held_y = at->held_y;
     rb_strip_answer u = {0.0, 0.0}, t = {0.0, 0.0};
 
     if (p->bonded && k >= p->s->bond->first) {
@@ -56,9 +68,9 @@ static void left_over(const rb_subtracted *p, int k, int c, double value[2][2])
         return;
     }
     if (held_x || held_y)
-        u = rb_strip_displacement(&p->strip[c], z);
-    if (!(held_x && held_y) && k != mesh->contact_first + c)
-        t = rb_strip_traction(&p->strip[c], z, rb_strip_outward(mesh, k));
+        u = rb_strip_displacement(&p->strip[c], at->z);
+    if (!(held_x && held_y) && k != p->s->mesh.contact_first + c)
+        t = rb_strip_traction(&p->strip[c], at->z, at->outward);
     for (int direction = 0; direction < 2; direction++) {
         const double complex load = direction ? I : 1.0;
         value[direction][0] = -creal(rb_strip_under(held_x ? u : t, load));
@@ -133,8 +145,9 @@ static void left_over_of_element(const rb_subtracted *p, const rb_assembly *asse
         out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)p->s->ld;
     }
     rb_assembly_columns(assembly, k, 1.0, out);
+    const seen_from at = from_element(mesh, k);
     for (int c = 0; c < mesh->contact_n; c++) {
-        left_over(p, k, c, value);
+        left_over(p, &at, c, value);
         for (int l = 0; l < 2; l++)
             for (int d = 0; d < 2; d++)
                 values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
@@ -142,13 +155,16 @@ static void left_over_of_element(const rb_subtracted *p, const rb_assembly *asse
     }
 }
 
-static rb_status subtracted_loads_dense(const rb_subtracted *p, double *X)
+static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const double *R,
+                                        double *X)
 {
     const rb_bem_system *s = p->s;
+    const int units = 2 * s->mesh.contact_n;
     /* Of a block of elements: columns of [G, -H] for the values that are left over (ld x 2
-     * BLOCK), and these (2 BLOCK x loads). */
+     * BLOCK), and these (2 BLOCK x units, of loads that are combined x loads). */
     double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
-           *values = rb_alloc(2 * BLOCK, 2 * (size_t)s->mesh.contact_n);
+           *values = rb_alloc(2 * BLOCK, (size_t)units + (R ? (size_t)loads : 0)),
+           *combined = R && values ? values + 2 * BLOCK * (size_t)units : values;
     const int threads = rb_blas_threads(1);
     rb_assembly assembly;
     rb_status status =
@@ -165,11 +181,15 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, double *X)
             for (int k = from; k < to; k++)
                 left_over_of_element(p, &assembly, k, 2 * (k - from), columns, values);
 #pragma omp for schedule(static)
+            for (int l = 0; l < (R ? loads : 0); l++)
+                cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * (to - from), units, 1.0, values,
+                            2 * BLOCK, R + (size_t)l * (size_t)units, 1, 0.0,
+                            combined + (size_t)l * 2 * BLOCK, 1);
+#pragma omp for schedule(static)
             for (int row = 0; row < s->dofs; row += SLICE)
                 cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
-                            s->dofs - row < SLICE ? s->dofs - row : SLICE, 2 * s->mesh.contact_n,
-                            2 * (to - from), 1.0, columns + row, s->ld, values, 2 * BLOCK, 1.0,
-                            X + row, s->ld);
+                            s->dofs - row < SLICE ? s->dofs - row : SLICE, loads, 2 * (to - from),
+                            1.0, columns + row, s->ld, combined, 2 * BLOCK, 1.0, X + row, s->ld);
         }
     }
     if (status == RB_OK)
@@ -248,9 +268,10 @@ static rb_status choose_loads(const rb_subtracted *p, split *far)
     for (int i = 0; i < far->sampled; i++) {
         const int k = far->sample[i];
         const double over = distance_from(middle, mesh, k) / p->s->material.shear;
+        const seen_from at = from_element(mesh, k);
         for (int c = 0; c < mesh->contact_n; c++) {
             double value[2][2];
-            left_over(p, k, c, value);
+            left_over(p, &at, c, value);
             for (int l = 0; l < 2; l++)
                 for (int d = 0; d < 2; d++)
                     far_field.K[2 * i + d + (size_t)(2 * c + l) * (size_t)far_field.ld] =
@@ -274,14 +295,16 @@ static rb_status multiply_values(const rb_subtracted *p, const rb_given *given, 
     if (!value)
         return RB_ENOMEM;
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
+        const seen_from at = from_element(&p->s->mesh, element[i]);
         for (int l = 0; l < loads; l++) {
             const int which = load ? load[l] : l;
             double own[2][2];
-            left_over(p, element[i], which / 2, own);
+            left_over(p, &at, which / 2, own);
             for (int d = 0; d < 2; d++)
                 value[2 * (size_t)i + (size_t)d + (size_t)l * rows] = own[which % 2][d];
         }
+    }
     const rb_status s = rb_given_multiply(given, count, element, loads, value, X);
     free(value);
     return s;
@@ -322,29 +345,50 @@ static rb_status subtracted_loads_long(const rb_subtracted *p, double *X)
     return rb_arena_done(&parts.memory, status);
 }
 
-rb_status rb_subtracted_loads(const rb_subtracted *p, double *X)
+rb_status rb_subtracted_loads(const rb_subtracted *p, int loads, const double *R, double *X)
 {
-    memset(X, 0, 2 * (size_t)p->s->ld * (size_t)p->s->mesh.contact_n * sizeof *X);
-    return (p->s->A ? subtracted_loads_dense : subtracted_loads_long)(p, X);
+    const int units = 2 * p->s->mesh.contact_n;
+    const size_t rows = (size_t)p->s->ld;
+
+    memset(X, 0, rows * (size_t)loads * sizeof *X);
+    if (p->s->A)
+        return subtracted_loads_dense(p, loads, R, X);
+    if (!R)
+        return subtracted_loads_long(p, X);
+    double *all = rb_alloc(rows, (size_t)units);
+    const rb_status status = all ? subtracted_loads_long(p, all) : RB_ENOMEM;
+    if (status == RB_OK)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, p->s->dofs, loads, units, 1.0, all,
+                    p->s->ld, R, units, 0.0, X, p->s->ld);
+    free(all);
+    return status;
 }
 
-void rb_subtracted_add_strips(const rb_subtracted *p, double *X)
+rb_status rb_subtracted_add_strips(const rb_subtracted *p, int loads, const double *R, double *X)
 {
     const rb_bem_system *s = p->s;
     const rb_bem_mesh *mesh = &s->mesh;
-    const int m = mesh->contact_n + 1;
-    const size_t rows = (size_t)s->ld;
+    const int kept = 2 * (mesh->contact_n + 1), units = 2 * mesh->contact_n;
+    double *U = X + s->dofs - kept, *strips = R ? rb_alloc((size_t)kept, (size_t)units) : U;
+    const size_t rows = R ? (size_t)kept : (size_t)s->ld;
 
-    for (int c = 0; c < mesh->contact_n; c++) {
-        double *U = X + 2 * (size_t)c * rows + (size_t)(s->dofs - 2 * m);
-        for (int i = 0; i < m; i++) {
+    if (!strips)
+        return RB_ENOMEM;
+    for (int c = 0; c < mesh->contact_n; c++)
+        for (int i = 0; i <= mesh->contact_n; i++) {
             const rb_strip_answer answer = rb_strip_displacement(
                 &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
             for (int l = 0; l < 2; l++) {
                 const double complex u = rb_strip_under(answer, l ? I : 1.0);
-                U[2 * i + (size_t)l * rows] += creal(u);
-                U[2 * i + 1 + (size_t)l * rows] += cimag(u);
+                double *at = strips + 2 * i + (size_t)(2 * c + l) * rows;
+                at[0] += creal(u);
+                at[1] += cimag(u);
             }
         }
+    if (R) {
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kept, loads, units, 1.0, strips,
+                    kept, R, units, 1.0, U, s->ld);
+        free(strips);
     }
+    return RB_OK;
 }

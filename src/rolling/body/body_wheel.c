@@ -65,10 +65,11 @@ rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_b
                : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary, why);
 }
 
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
-                                     rb_message *why)
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b,
+                                     rb_bem_system **system, rb_message *why)
 {
-    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system, why);
+    return wheel_system(model->rc, &model->plan, of_b ? &model->rc->b : &model->rc->a, &model->mesh,
+                        system, why);
 }
 
 int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,

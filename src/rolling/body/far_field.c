@@ -7,6 +7,7 @@
 
 #include <cblas.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* At most so many points along the mesh: between them the polynomials of fourth order are exact to
  * 1e-8 of the displacement where the contact is as wide as a third of the radius. */
@@ -18,7 +19,7 @@ struct rb_rolling_far_field {
     double *w0; /* 2n: displacements without loads [length] */
     double *F;  /* 2n x 2n: displacements for unit forces along the normal and along the surface */
     int elements; /* 0, or of meshes to which `more` is added */
-    double *more; /* 2 (elements + 1) [length] */
+    double *more; /* 2 (elements + 1): displacements [length] */
     rb_arena memory;
 };
 
@@ -64,44 +65,60 @@ static int choose_points(const rb_bem_flexibility *f, int chosen[POINTS + 2])
     return n;
 }
 
-rb_status rb_rolling_far_field_create(const rb_rolling_model *model, rb_rolling_far_field **far,
-                                      rb_message *why)
+/* D (2m x loads), D0 (2m): what boundaries on the mesh of the model displace more under loads r (2n
+ * x loads), and without any, than half-planes do.  From the matrix of the model, where it has
+ * solved its boundaries; otherwise these are solved now, for these loads alone. */
+static rb_status displaced_more(const rb_rolling_model *model, int loads, const double *r,
+                                double *D, double *D0, rb_message *why)
 {
-    const rb_bem_flexibility *all = &model->bodies.f;
-    const double *F = model->bodies.F;
-    const size_t rows = 2 * (size_t)all->m;
-    int chosen[POINTS + 2];
-    rb_rolling_bodies near = {.F = NULL};
-    rb_rolling_far_field *made = *far = calloc(1, sizeof *made);
+    const rb_rolling_case *rc = model->rc;
+    const rb_rolling_bodies *bodies = &model->bodies;
+    const int n = bodies->f.n, rows = 2 * (n + 1), is_solved = bodies->system_a || bodies->system_b;
+    const size_t size = (size_t)rows * (size_t)loads;
+    rb_arena scratch = {0};
+    double *own_r = rb_arena_doubles(&scratch, 2 * (size_t)n, (size_t)loads),
+           *w = rb_arena_doubles(&scratch, size, 1),
+           *w0 = rb_arena_doubles(&scratch, (size_t)rows, 1);
+    rb_status s = scratch.failed ? rb_fail(why, RB_ENOMEM, "out of memory for a far field") : RB_OK;
 
-    if (!made)
-        return rb_fail(why, RB_ENOMEM, "out of memory for a far field");
-    rb_status s = rb_rolling_bodies_near(model->rc, NULL, &model->mesh, &near, why);
-    const int n = made->n = choose_points(all, chosen);
-    made->x = rb_arena_doubles(&made->memory, (size_t)n, 1);
-    made->w0 = rb_arena_doubles(&made->memory, 2 * (size_t)n, 1);
-    made->F = rb_arena_doubles(&made->memory, 2 * (size_t)n, 2 * (size_t)n);
-    if (s == RB_OK && made->memory.failed)
-        s = rb_fail(why, RB_ENOMEM, "out of memory for a far field of %d points", n);
-    for (int j = 0; j < n && s == RB_OK; j++) {
-        made->x[j] = all->x[chosen[j]];
-        for (int a = 0; a < 2; a++)
-            made->w0[a * n + j] = all->w0[a * all->m + chosen[j]];
-        for (int b = 0; b < 2; b++) {
-            const size_t column = (size_t)(b * all->n + chosen[j]) * rows;
-            for (int i = 0; i < 2 * n; i++) {
-                const size_t at = column + (size_t)(i / n * all->m + chosen[i % n]);
-                made->F[i + (size_t)(b * n + j) * 2 * (size_t)n] =
-                    (F[at] - near.F[at]) / all->h[chosen[j]];
-            }
+    if (s == RB_OK && is_solved) {
+        rb_rolling_bodies near = {.F = NULL};
+        s = rb_rolling_bodies_near(rc, NULL, &model->mesh, &near, why);
+        if (s == RB_OK) {
+            memcpy(D0, bodies->f.w0, (size_t)rows * sizeof *D0);
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, 1.0,
+                        bodies->F, rows, r, 2 * n, 0.0, D, rows);
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, -1.0, near.F,
+                        rows, r, 2 * n, 1.0, D, rows);
         }
+        rb_rolling_bodies_free(&near);
+        return rb_arena_done(&scratch, s);
     }
-    rb_rolling_bodies_free(&near);
-    if (s != RB_OK) {
-        rb_rolling_far_field_free(made);
-        *far = NULL;
+    for (int b = 0; b < 1 + rc->elastic_b && s == RB_OK; b++) {
+        const rb_rolling_body *body = b ? &rc->b : &rc->a;
+        const double along = b ? -1.0 : 1.0; /* B is computed as the mirror image (4.5) */
+        rb_rolling_body_flexibility near = {.system = NULL};
+        rb_bem_system *system = NULL;
+        if (!has_far_field(rc, body))
+            continue;
+        for (size_t k = 0; k < 2 * (size_t)n * (size_t)loads; k++)
+            own_r[k] = k / (size_t)n % 2 ? along * r[k] : r[k];
+        s = rb_rolling_boundary_system(model, b, &system, why);
+        if (s == RB_OK)
+            s = rb_bem_displacement_subtracted(system, rc->normals, loads, own_r, w, w0, why);
+        if (s == RB_OK)
+            s = rb_rolling_kind_of(body)->near(rc, &model->plan, body, &model->mesh, &near, why);
+        if (s == RB_OK)
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, -1.0,
+                        rb_bem_flexibility_stored(&near.f), rows, own_r, 2 * n, 1.0, w, rows);
+        for (size_t k = 0; k < size && s == RB_OK; k++)
+            D[k] += k / (size_t)(n + 1) % 2 ? along * w[k] : w[k];
+        for (int i = 0; i < rows && s == RB_OK; i++)
+            D0[i] += i > n ? along * w0[i] : w0[i];
+        rb_bem_flexibility_free(&near.f);
+        rb_bem_system_free(system);
     }
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 /* Lagrange's polynomial through the four points around x: where they begin, and their weights. */
@@ -120,58 +137,118 @@ static int weights_at(const rb_rolling_far_field *far, double x, double weight[O
     return first;
 }
 
-rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_far_field *far,
-                                     rb_message *why)
+/* w (2m) += what the far field displaces under r (2n) on the elements of f. */
+static void add_displacement(const rb_rolling_far_field *far, const rb_bem_flexibility *f,
+                             const double *r, double *w)
 {
-    const rb_contact_state *state = &model->state;
-    const int n = model->mesh.n, rows = 2 * (n + 1);
-    double *more = rb_arena_doubles(&far->memory, (size_t)rows, 2), *w = more + rows;
-    rb_rolling_bodies as_far = {.F = NULL};
-    rb_status s = far->memory.failed ? RB_ENOMEM : RB_OK;
+    const int n = far->n, m = f->m;
+    double force[2 * (POINTS + 2)] = {0.0}, at_points[2 * (POINTS + 2)], weight[ORDER];
 
+    for (int j = 0; j < f->n; j++) {
+        const int first = weights_at(far, f->x[j], weight);
+        for (int b = 0; b < 2; b++)
+            for (int k = 0; k < ORDER; k++)
+                force[b * n + first + k] += weight[k] * f->h[j] * r[b * f->n + j];
+    }
+    memcpy(at_points, far->w0, 2 * (size_t)n * sizeof *at_points);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, 2 * n, 1.0, far->F, 2 * n, force, 1, 1.0,
+                at_points, 1);
+    for (int i = 0; i < m; i++) {
+        const int first = weights_at(far, f->x[i], weight);
+        for (int a = 0; a < 2; a++)
+            for (int k = 0; k < ORDER; k++)
+                w[a * m + i] += weight[k] * at_points[a * n + first + k];
+    }
+}
+
+rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int match,
+                                      rb_rolling_far_field **far, rb_message *why)
+{
+    const rb_bem_flexibility *f = &model->bodies.f;
+    const size_t rows = 2 * (size_t)f->m, tractions = 2 * (size_t)f->n;
+    int chosen[POINTS + 2];
+    const int n = choose_points(f, chosen), loads = 2 * n + match;
+    rb_arena scratch = {0};
+    rb_rolling_far_field *made = *far = calloc(1, sizeof *made);
+
+    if (!made)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a far field");
+    made->n = n;
+    made->x = rb_arena_doubles(&made->memory, (size_t)n, 1);
+    made->w0 = rb_arena_doubles(&made->memory, 2 * (size_t)n, 1);
+    made->F = rb_arena_doubles(&made->memory, 2 * (size_t)n, 2 * (size_t)n);
+    made->more = rb_arena_doubles(&made->memory, rows, 1);
+    double *r = rb_arena_doubles(&scratch, tractions, (size_t)loads),
+           *D = rb_arena_doubles(&scratch, rows, (size_t)loads),
+           *D0 = rb_arena_doubles(&scratch, rows, 1);
+    rb_status s = made->memory.failed || scratch.failed
+                      ? rb_fail(why, RB_ENOMEM, "out of memory for a far field of %d points", n)
+                      : RB_OK;
+    for (int j = 0; j < 2 * n && s == RB_OK; j++) {
+        const int element = chosen[j % n];
+        r[(size_t)j * tractions + (size_t)(j / n * f->n + element)] = 1.0 / f->h[element];
+    }
+    if (match && s == RB_OK) {
+        memcpy(r + 2 * (size_t)n * tractions, model->state.p, (size_t)f->n * sizeof *r);
+        memcpy(r + 2 * (size_t)n * tractions + f->n, model->state.q, (size_t)f->n * sizeof *r);
+    }
     if (s == RB_OK)
-        s = rb_rolling_bodies_near(model->rc, far, &model->mesh, &as_far, why);
-    if (s == RB_OK)
-        s = rb_rolling_displacement(&as_far, state->p, state->q, w);
-    if (s == RB_OK)
-        s = rb_rolling_displacement(&model->bodies, state->p, state->q, more);
-    for (int i = 0; i < rows && s == RB_OK; i++)
-        more[i] -= w[i];
-    rb_rolling_bodies_free(&as_far);
-    far->more = more;
-    far->elements = n;
-    return s;
+        s = displaced_more(model, loads, r, D, D0, why);
+    for (int i = 0; i < 2 * n && s == RB_OK; i++) {
+        const size_t row = (size_t)(i / n * f->m + chosen[i % n]);
+        made->x[i % n] = f->x[chosen[i % n]];
+        made->w0[i] = D0[row];
+        for (int j = 0; j < 2 * n; j++)
+            made->F[i + (size_t)j * 2 * (size_t)n] = D[row + (size_t)j * rows];
+    }
+    if (match && s == RB_OK) {
+        made->elements = f->n;
+        add_displacement(made, f, r + 2 * (size_t)n * tractions, made->more);
+        for (size_t i = 0; i < rows; i++)
+            made->more[i] = D[i + 2 * (size_t)n * rows] + D0[i] - made->more[i];
+    }
+    if (s != RB_OK) {
+        rb_rolling_far_field_free(made);
+        *far = NULL;
+    }
+    return rb_arena_done(&scratch, s);
+}
+
+int rb_rolling_far_field_matches(const rb_rolling_far_field *far, int elements)
+{
+    return far->elements == elements;
 }
 
 rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f)
 {
-    const int n = far->n, m = f->m;
-    const size_t rows = 2 * (size_t)n, columns = 2 * (size_t)f->n;
+    const int n = far->n, m = f->m, loads = f->n;
+    const size_t rows = 2 * (size_t)m, columns = 2 * (size_t)loads;
     rb_arena scratch = {0};
-    /* under the loads of f, at the points of far and at f's places, whose weights these are */
-    double *at_points = rb_arena_doubles(&scratch, rows, columns),
-           *F = rb_arena_doubles(&scratch, 2 * (size_t)m, columns),
-           *weight = rb_arena_doubles(&scratch, ORDER, (size_t)m);
-    int *first = rb_arena_ints(&scratch, (size_t)m);
+    double *P = rb_arena_doubles(&scratch, (size_t)n, (size_t)m), /* weights at the places of f */
+        *at_points = rb_arena_doubles(&scratch, 2 * (size_t)n, columns),
+           *F = rb_arena_doubles(&scratch, rows, columns);
 
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
-    for (int i = 0; i < m; i++)
-        first[i] = weights_at(far, f->x[i], weight + ORDER * i);
-    for (int b = 0; b < 2; b++)
-        for (int j = 0; j < f->n; j++)
-            cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * n, ORDER, f->h[j],
-                        far->F + (size_t)(b * n + first[j]) * rows, 2 * n, weight + ORDER * j, 1,
-                        0.0, at_points + (size_t)(b * f->n + j) * rows, 1);
-    for (size_t j = 0; j <= columns; j++) {
-        const double *from = j < columns ? at_points + j * rows : far->w0;
-        double *to = j < columns ? F + j * 2 * (size_t)m : f->w0;
-        for (int a = 0; a < 2; a++)
-            for (int i = 0; i < m; i++)
-                for (int k = 0; k < ORDER; k++)
-                    to[a * m + i] += weight[ORDER * i + k] * from[a * n + first[i] + k];
+    for (int i = 0; i < m; i++) {
+        double weight[ORDER];
+        const int first = weights_at(far, f->x[i], weight);
+        memcpy(P + first + (size_t)i * (size_t)n, weight, sizeof weight);
     }
-    for (int i = 0; i < 2 * m && f->n == far->elements; i++)
+    /* F_ab = P' F_ab(points) P, times the lengths */
+    for (int b = 0; b < 2; b++)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, 2 * n, loads, n, 1.0,
+                    far->F + (size_t)(b * n) * 2 * (size_t)n, 2 * n, P, n, 0.0,
+                    at_points + (size_t)(b * loads) * 2 * (size_t)n, 2 * n);
+    for (int a = 0; a < 2; a++) {
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, m, 2 * loads, n, 1.0, P, n,
+                    at_points + a * n, 2 * n, 0.0, F + a * m, 2 * m);
+        cblas_dgemv(CblasColMajor, CblasTrans, n, m, 1.0, P, n, far->w0 + a * n, 1, 1.0,
+                    f->w0 + a * m, 1);
+    }
+    for (size_t j = 0; j < columns; j++)
+        cblas_dscal((int)rows, f->h[j % (size_t)loads], F + j * rows, 1);
+    for (int i = 0; i < 2 * m && loads == far->elements; i++)
         f->w0[i] += far->more[i];
     return rb_arena_done(&scratch, rb_bem_flexibility_add_matrix(f, F));
 }

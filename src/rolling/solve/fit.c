@@ -19,6 +19,9 @@ enum {
 /* Edges that have come to rest, or near enough after all rounds, or for more elements to go on
  * from: in lengths of the outermost elements, which are the smallest of the mesh. */
 static const double AT_REST = 0.1, NEAR_REST = 3.0, TO_GO_ON = 1.0;
+/* Elements of a wheel outside the contact, as a part of those asked for, that its first far field
+ * is found with: a sixth of the time. */
+static const double COARSE_BOUNDARY = 0.5;
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
@@ -177,6 +180,12 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
     return s;
 }
 
+/* 1: fitted elements, which differ in length. */
+static int is_graded(const rb_rolling_mesh *mesh)
+{
+    return length_of(mesh, mesh->n / 2) > 2.0 * length_of(mesh, mesh->n / 8);
+}
+
 /* 1: both have the same edges, to what counts as rest. */
 static int same_edges(const patches *a, const patches *b)
 {
@@ -191,8 +200,9 @@ static int same_edges(const patches *a, const patches *b)
 /* From a solution to elements fitted to its edges, until these rest; where they do not, or
  * where no solution is found on them, to equal ones.
  * Wheels are searched by a far field.  with_systems: where its edges rest the boundary elements of
- * the same mesh are solved; if they put the edges elsewhere, the search goes on by their far field.
- * room: kept beyond the edges at first, as a part of the patch.  enough: how nearly they rest. */
+ * the same mesh are solved, at first for a far field of their own; then wholly, and if these put
+ * the edges elsewhere, the search goes on by their far field. room: kept beyond the edges at first,
+ * as a part of the patch.  enough: how nearly they rest. */
 static rb_status refit(rb_rolling_model *model, double room, int with_systems, double enough,
                        rb_message *why)
 {
@@ -213,11 +223,8 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
          round++) {
         rb_rolling_mesh mesh;
         const int is_checked = by_far_field && !model->far;
-        if (has_far && !model->far && !is_checked && model->bodies.F) {
-            s = rb_rolling_far_field_create(model, &model->far, why);
-            if (s == RB_OK && round > 0)
-                s = rb_rolling_far_field_match(model, model->far, why);
-        }
+        if (has_far && !model->far && !is_checked && model->bodies.F)
+            s = rb_rolling_far_field_create(model, is_graded(&model->mesh), &model->far, why);
         by_far_field = model->far != NULL;
         if (s == RB_OK || s == RB_ZONE)
             s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span,
@@ -248,9 +255,15 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
             rest = moved < (round + 1 == rounds ? NEAR_REST : enough) ||
                    (is_checked && same_edges(&expected, &found));
             if (with_systems && by_far_field && (rest || round + 2 >= rounds)) {
+                const int is_near = rb_rolling_far_field_matches(model->far, model->mesh.n) ||
+                                    model->plan.elements < FIRST || round + 2 >= rounds;
                 expected = rest ? found : (patches){.count = 0};
                 drop_far_field(model);
                 rest = 0;
+                if (!is_near) {
+                    s = rb_rolling_far_field_create(model, 1, &model->far, why);
+                    forget(known);
+                }
             }
             if (has_far && !model->far)
                 forget(known);
@@ -270,6 +283,12 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     return refit(model, 0.0, 1, AT_REST, why);
 }
 
+/* 1: with a matrix half of the elements cost little. */
+static int pays_with_half(int elements)
+{
+    return elements >= 2 * FIRST && elements < RB_ROLLING_TRANSFORMS_FITTED;
+}
+
 rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model *model,
                                 rb_message *why)
 {
@@ -277,39 +296,51 @@ rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model
     const rb_bem_flexibility *f = &beside->bodies.f;
     const rb_rolling_elements elements = {.n = f->n, .x = f->x, .h = f->h};
     const double longest = rb_rolling_longest_element(f->n, beside->state.zone, f->h);
+    const int asked = model->plan.elements, by_half = pays_with_half(asked);
     rb_status s = rb_rolling_mesh_of_result(model->rc, &elements, &model->mesh, why);
 
     if (s == RB_OK)
         s = rb_contact_state_alloc(model->mesh.n, &model->state);
     if (s == RB_OK)
-        s = rb_rolling_far_field_create(beside, &model->far, why);
+        s = rb_rolling_far_field_create(beside, 0, &model->far, why);
     if (s != RB_OK)
         return s;
     rb_contact_copy_start(&beside->state, &model->state);
-    return refit(model, ROOM, longest > SHORT * rb_rolling_radius(model->rc), AT_REST, why);
+    if (by_half) {
+        model->plan.elements = asked / 2;
+        s = refit(model, ROOM, 0, TO_GO_ON, why);
+        model->plan.elements = asked;
+    }
+    return s != RB_OK ? s
+                      : refit(model, by_half ? 0.0 : ROOM,
+                              longest > SHORT * rb_rolling_radius(model->rc), AT_REST, why);
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_plan asked = model->plan;
-    const int fine = rb_rolling_has_fine_boundary(&asked);
-    /* with a matrix half of the elements cost little */
-    int halvings = asked.elements >= 2 * FIRST && asked.elements < RB_ROLLING_TRANSFORMS_FITTED;
+    const int fine = rb_rolling_has_fine_boundary(&asked),
+              has_far = rb_rolling_has_far_field(model->rc),
+              by_far_field = has_far && asked.elements >= FIRST;
+    int halvings = pays_with_half(asked.elements);
 
     while (asked.elements > RB_ROLLING_FITTED_AT_ONCE &&
            asked.elements >> halvings > RB_ROLLING_COARSEST_FITTED)
         halvings++;
-    /* A coarse solution to fit to: where the rest of a wheel has many elements, with few
-     * of them. */
+    /* A coarse solution to fit to, where the rest of a wheel has few elements. */
     if (model->rc->zone == 0.0) {
         model->plan.elements = (int)fmax(FIRST, (asked.elements >> halvings) / 2);
-        if (!rb_rolling_has_far_field(model->rc))
+        if (!has_far)
             model->plan.near_field = RB_NEAR_FIELD_PLAIN;
     }
+    if (fine || by_far_field)
+        rb_rolling_coarsen_boundary(&model->plan);
+    if (by_far_field)
+        model->plan.outer_refinement = COARSE_BOUNDARY;
+    rb_status s = rb_rolling_solve_zone(model, 1, why);
+    model->plan = asked;
     if (fine)
         rb_rolling_coarsen_boundary(&model->plan);
-    rb_status s = rb_rolling_solve_zone(model, 1, why);
-    model->plan.near_field = asked.near_field;
     model->iterations = 0; /* those on fitted elements count */
     /* Many elements start from the edges and the zones of few. */
     for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
