@@ -17,6 +17,8 @@ static const char *const lines[] = {
     "--contact-elements 20",
     "~ --half-width {mm 0.6} --formulation steady --creep-ratio 0.4 --interlayer-normal "
     "{mm/MPa 2e-6} --interlayer-tangential {mm/MPa 3e-6}",
+    "~ --approach {mm 0.001} --mu 1000 --formulation steady --creep 1e-5 --mesh uniform "
+    "--interlayer-normal {mm/MPa 0.01} --interlayer-tangential {mm/MPa 0.01}",
     "~ --load {N/mm 500} --formulation steady --creep 1e-3 --mesh uniform --yield-stress {MPa 90} "
     "--hardening {MPa/mm 400}",
     "--support halfplane --radius {mm 46.5} --young {MPa 205000} --young-b {MPa 90000} "
