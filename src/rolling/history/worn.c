@@ -5,6 +5,7 @@
 #include "rolling/case/internal.h"
 #include "rolling/case/options.h"
 #include "rolling/history/internal.h"
+#include "rolling/history/worn.h"
 #include "rolling/solve/columns.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
@@ -24,58 +25,16 @@ void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
     memset(h, 0, sizeof *h);
 }
 
-/* (W4) The diagonally implicit method of second order with weights 1 - gamma and gamma: both are
- * positive, so that nothing wears negatively, and the pressure at its end is that under its gap. */
-#define GAMMA (1.0 - M_SQRT1_2)
-
 /* ---- What is at work --------------------------------------------------------------- */
 
 /* The longest stroke by positions, in half-widths. */
 static const double LONGEST = 5.0;
-
-typedef struct {
-    const rb_rolling_wear *wear;
-    rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
-    rb_rolling_model model; /* mesh, bodies and the contact after the last step */
-    int n;
-    rb_arena memory;          /* of the arrays */
-    double *x, *depth;        /* n: midpoints, and what is worn off there [length] */
-    double *rate;             /* n: depth that a step wears per pressure [length/stress] */
-    double *start;            /* n: depth at the start of the step [length] */
-    double *pressed;          /* n positions: pressure under the present gap [stress] */
-    double *first;            /* n positions: that of the first stage of a step */
-    double *now;              /* n positions: that of the last stage */
-    double *path;             /* n: way that the surfaces slide in a cycle [length] */
-    rb_rolling_stroke stroke; /* of fretting, if it is not small */
-    double *softer;           /* flexibility with the compliance on its diagonal, or, where there
-                                 is no matrix, 2n: the interface's with it */
-    double slid;              /* from the middle to either side in a cycle, mean of the contact */
-    int was_worn;             /* 1: the case brings a worn depth */
-    double work;              /* of friction in a cycle [force] */
-    double track;             /* volume per unit width that B has lost where A slides or rolls on a
-                                 plane [length^2] */
-    double passage;           /* depth of that track in one passage of A [length] */
-    rb_rolling_wear_history *history;
-    rb_rolling_solution *last;
-    const rb_rolling_wear_observer *observer; /* or NULL */
-} wear_state;
 
 static void run_free(wear_state *r)
 {
     rb_rolling_model_free(&r->model);
     rb_rolling_stroke_free(&r->stroke);
     rb_arena_free(&r->memory);
-}
-
-/* Of A over B, at which the contact is solved. */
-static int positions(const wear_state *r)
-{
-    return r->stroke.positions > 0 ? r->stroke.positions : 1;
-}
-
-static rb_rolling_table worn_of(const wear_state *r)
-{
-    return (rb_rolling_table){r->n, r->x, r->depth};
 }
 
 /* The contact at rest, on equal elements that stay: those of an automatic zone, with
@@ -105,7 +64,8 @@ static rb_status press(wear_state *r, rb_message *why)
     /* Arrays for the mesh of the model. */
     if (s != RB_OK)
         return s;
-    const size_t n = (size_t)r->model.mesh.n, m = n + 1, all = n * (size_t)positions(r);
+    const size_t n = (size_t)r->model.mesh.n, m = n + 1,
+                 all = n * (size_t)rb_rolling_wear_positions(r);
 
     r->n = (int)n;
     r->x = rb_arena_doubles(&r->memory, n, 1);
@@ -157,186 +117,15 @@ static rb_status widen(wear_state *r, rb_message *why)
         return s;
     }
     memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
-    memset(wider.pressed, 0, (size_t)(wider.n * positions(&wider)) * sizeof *wider.pressed);
-    for (int j = 0; j < positions(&wider); j++)
+    memset(wider.pressed, 0,
+           (size_t)(wider.n * rb_rolling_wear_positions(&wider)) * sizeof *wider.pressed);
+    for (int j = 0; j < rb_rolling_wear_positions(&wider); j++)
         memcpy(wider.pressed + j * wider.n + more, r->pressed + j * n,
                (size_t)n * sizeof *r->pressed);
     run_free(r);
     *r = wider;
-    r->rc.worn = worn_of(r);
+    r->rc.worn = rb_rolling_worn_so_far(r);
     return RB_OK;
-}
-
-/* ---- One implicit step ------------------------------------------------------------- */
-
-/* The contact of these bodies with what is worn off so far.  sense: of full sliding, the sign of q;
- * 0: as it is pressed. */
-static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, double sense, rb_message *why)
-{
-    rb_rolling_model *model = &r->model;
-
-    rb_contact_problem_free(&model->problem);
-    rb_rolling_case worn = *model->rc;
-    worn.worn = worn_of(r);
-    if (!r->wear->slides) {
-        worn.shift = sense == 0.0 ? 0.0 : NAN;
-        worn.force_ratio = sense == 0.0 ? NAN : sense;
-    }
-    rb_status s = rb_rolling_model_set_case(model, &worn, why);
-    if (s == RB_OK)
-        s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
-    if (s == RB_OK)
-        s = rb_rolling_problem_create(model->rc, &model->mesh, bodies, NULL, &model->problem, why);
-    return s;
-}
-
-/* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own part of the step off, so that
- * the worn gap and the pressure belong together at its end, however long it is.  Leaves the
- * pressure in the state, and the depth as it was. */
-static rb_status press_softer(wear_state *r, double part, double sense, rb_message *why)
-{
-    /* The bodies, whose arrays are borrowed, softer under each element by what a step
-     * wears. */
-    const size_t n = (size_t)r->n, m = n + 1;
-    rb_rolling_bodies softer = r->model.bodies;
-
-    if (softer.F) {
-        memcpy(r->softer, softer.F, 4 * m * n * sizeof *r->softer);
-        for (size_t i = 0; i < n; i++)
-            r->softer[i + 2 * m * i] += part * r->rate[i];
-        softer.F = r->softer;
-    } else {
-        for (size_t i = 0; i < 2 * n; i++)
-            r->softer[i] = (softer.f.compliance ? softer.f.compliance[i] : 0.0) +
-                           (i < n ? part * r->rate[i] : 0.0);
-        softer.f.compliance = r->softer;
-    }
-    const rb_status s = pose(r, &softer, sense, why);
-    return s == RB_OK ? rb_rolling_model_resolve(&r->model, 1, why) : s;
-}
-
-/* (W5) A stage at each position of the stroke, as (W1) with what the pressures before it would
- * wear and, there alone, what the new one wears besides. */
-static rb_status press_positions(wear_state *r, double part, const double *before, rb_message *why)
-{
-    rb_rolling_stroke *stroke = &r->stroke;
-    const double rate = part * r->rate[0];
-    rb_status s = RB_OK;
-
-    rb_rolling_stroke_wear(stroke, rate, r->wear->share, before);
-    for (int j = 0; j < stroke->positions && s == RB_OK; j++) {
-        const double *p = before + j * r->n;
-        rb_rolling_stroke_depth(stroke, stroke->at[j], r->depth);
-        for (int i = 0; i < r->n; i++)
-            r->depth[i] -= rate * p[i];
-        s = press_softer(r, part, stroke->sense[j], why);
-        if (s == RB_OK)
-            memcpy(r->now + j * r->n, r->model.state.p, (size_t)r->n * sizeof *r->now);
-    }
-    rb_rolling_stroke_wear(stroke, -rate, r->wear->share, before);
-    return s;
-}
-
-/* A stage under the gap there is, to the pressures `now`.  before: those of the stage before. */
-static rb_status press_worn(wear_state *r, double part, const double *before, rb_message *why)
-{
-    if (r->stroke.positions > 0)
-        return press_positions(r, part, before, why);
-    const rb_status s = press_softer(r, part, 0.0, why);
-    if (s == RB_OK)
-        memcpy(r->now, r->model.state.p, (size_t)r->n * sizeof *r->now);
-    return s;
-}
-
-static void wear_off(wear_state *r, double part, const double *p)
-{
-    if (r->stroke.positions > 0)
-        rb_rolling_stroke_wear(&r->stroke, part * r->rate[0], r->wear->share, p);
-    else
-        for (int i = 0; i < r->n; i++)
-            r->depth[i] += part * r->rate[i] * p[i];
-}
-
-/* What the present pressure carries [force/length], where A slides. */
-static double carried(const wear_state *r)
-{
-    double sum = 0.0;
-
-    for (int i = 0; i < r->n; i++)
-        sum += r->now[i] * r->model.bodies.f.h[i];
-    return sum;
-}
-
-/* 1: elements that carried nothing under the pressure p now carry more than this part of the
- * largest one.  A stage wears them by its own weight alone, so that they stand out afterwards. */
-static int has_grown(const wear_state *r, const double *p, double most)
-{
-    static const double COUNTS = 1e-3;
-    const int all = r->n * positions(r);
-    const double p0 = rb_norm_inf((size_t)all, r->pressed);
-
-    for (int i = 0; i < all; i++)
-        if (p[i] <= COUNTS * p0 && r->now[i] - p[i] > most * p0)
-            return 1;
-    return 0;
-}
-
-/* 1: a stage takes so much of the pressure off an element that the two stages together would wear
- * more there than any number of short ones: below 1/(1 + gamma z), z the last one at which the
- * stability function (1 - (1 - 2 gamma) z)/(1 + gamma z)^2 is not negative. */
-static int is_steep(const wear_state *r)
-{
-    static const double LEAST = (1.0 - 2.0 * GAMMA) / (1.0 - GAMMA), COUNTS = 1e-3;
-    const int all = r->n * positions(r);
-    const double p0 = rb_norm_inf((size_t)all, r->pressed);
-
-    for (int i = 0; i < all; i++)
-        if (r->pressed[i] > COUNTS * p0 && r->now[i] < LEAST * r->pressed[i])
-            return 1;
-    return 0;
-}
-
-/* (W4) A part of a step; *mean: the load that its wear has carried, averaged.  Where it is steep it
- * is halved, and at last one implicit stage, which is of first order and never wears too much. */
-static rb_status wear_step(wear_state *r, double part, int halved, double *mean, rb_message *why)
-{
-    static const double NEW_1 = 0.02, NEW_2 = 0.1;
-    enum { MOST_HALVED = 4 };
-    const size_t all = (size_t)(r->n * positions(r));
-    rb_status s = press_worn(r, GAMMA * part, r->pressed, why);
-    int steep = s == RB_OK && (is_steep(r) || has_grown(r, r->pressed, NEW_1));
-
-    if (s == RB_OK && !steep) {
-        memcpy(r->first, r->now, all * sizeof *r->first);
-        wear_off(r, (1.0 - GAMMA) * part, r->first);
-        *mean = (1.0 - GAMMA) * carried(r);
-        s = press_worn(r, GAMMA * part, r->first, why);
-        steep = s == RB_OK && has_grown(r, r->first, NEW_2);
-        if (steep)
-            wear_off(r, (GAMMA - 1.0) * part, r->first);
-        else if (s == RB_OK) {
-            wear_off(r, GAMMA * part, r->now);
-            *mean += GAMMA * carried(r);
-        }
-    }
-    if (s == RB_OK && steep && halved < MOST_HALVED) {
-        double half[2] = {0.0, 0.0};
-        s = wear_step(r, 0.5 * part, halved + 1, &half[0], why);
-        if (s == RB_OK)
-            s = wear_step(r, 0.5 * part, halved + 1, &half[1], why);
-        *mean = 0.5 * (half[0] + half[1]);
-        return s;
-    }
-    if (s == RB_OK && steep) {
-        s = press_worn(r, part, r->pressed, why);
-        if (s == RB_OK) {
-            wear_off(r, part, r->now);
-            *mean = carried(r);
-        }
-    }
-    if (s == RB_OK)
-        memcpy(r->pressed, r->now, all * sizeof *r->pressed);
-    return s;
 }
 
 /* ---- Sliding, fretting, rolling ---------------------------------------------------- */
@@ -650,7 +439,7 @@ static rb_status begin_positions(wear_state *r, double reach, double half_width,
     const size_t n = (size_t)r->n;
     rb_status s = rb_rolling_stroke_create(r->n, rb_rolling_couples(&r->rc), reach, half_width,
                                            r->model.bodies.f.h[0], &r->stroke);
-    const size_t all = n * (size_t)positions(r);
+    const size_t all = n * (size_t)rb_rolling_wear_positions(r);
     double *p = rb_arena_doubles(&r->memory, all, 3);
     if (s != RB_OK || !p)
         return RB_ENOMEM;
@@ -664,7 +453,7 @@ static rb_status begin_positions(wear_state *r, double reach, double half_width,
     }
     rb_rolling_stroke_keep(&r->stroke);
     r->stroke.stroke = fmin(r->slid, reach);
-    s = press_worn(r, 0.0, r->pressed, why);
+    s = rb_rolling_press_worn(r, 0.0, r->pressed, why);
     memcpy(r->pressed, r->now, all * sizeof *r->pressed);
     if (s != RB_OK) /* begins again, on a wider zone */
         rb_rolling_stroke_free(&r->stroke);
@@ -715,9 +504,9 @@ static rb_status set_rate(wear_state *r, double depth, rb_message *why)
     }
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
-    s = press_worn(r, 0.5, r->pressed, why);
+    s = rb_rolling_press_worn(r, 0.5, r->pressed, why);
     if (s == RB_OK) {
-        wear_off(r, 0.5, r->now);
+        rb_rolling_wear_off(r, 0.5, r->now);
         s = fret(r, why);
     }
     memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
@@ -731,7 +520,7 @@ static rb_status end_step(wear_state *r, rb_message *why)
 {
     if (r->stroke.positions > 0)
         rb_rolling_stroke_depth(&r->stroke, 0.0, r->depth);
-    const rb_status s = pose(r, &r->model.bodies, 0.0, why);
+    const rb_status s = rb_rolling_set_worn_problem(r, &r->model.bodies, 0.0, why);
     return s == RB_OK && r->stroke.positions > 0 ? rb_rolling_model_resolve(&r->model, 1, why) : s;
 }
 
@@ -759,7 +548,7 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
         for (int i = 0; i < r->n && r->wear->slides; i++)
             r->rate[i] = (1.0 - share) * depth * part;
         if (s == RB_OK)
-            s = wear_step(r, 1.0, 0, &mean, &reason);
+            s = rb_rolling_wear_advance(r, 1.0, 0, &mean, &reason);
         if (s == RB_OK)
             s = end_step(r, &reason);
         if (s != RB_ZONE)
@@ -769,7 +558,7 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
             rb_rolling_stroke_restore(&r->stroke);
     }
     if (s == RB_OK && r->wear->slides) {
-        r->passage = share * depth * carried(r);
+        r->passage = share * depth * rb_rolling_carried_load(r);
         r->track += share * depth * mean * part;
     }
     return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
@@ -891,8 +680,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK && rc->formulation != RB_STEADY && !wear->slides && rc->zone == 0.0)
         s = align_with_stick(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
-        r.rc.worn = worn_of(&r);
-        s = pose(&r, &r.model.bodies, 0.0, why);
+        r.rc.worn = rb_rolling_worn_so_far(&r);
+        s = rb_rolling_set_worn_problem(&r, &r.model.bodies, 0.0, why);
     }
     if (s == RB_OK && rc->formulation != RB_STEADY)
         memcpy(r.pressed, r.model.state.p, (size_t)r.n * sizeof *r.pressed);
