@@ -7,7 +7,7 @@
 #ifndef ROLLBEM_BEM_HIERARCHICAL_H
 #define ROLLBEM_BEM_HIERARCHICAL_H
 
-#include "bem/bem.h"
+#include "bem/boundary.h"
 
 typedef struct rb_hierarchical rb_hierarchical;
 

@@ -30,6 +30,7 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
 
     if (!gap)
         return rb_arena_done(&scratch, RB_ENOMEM);
+    /* Gaps and slips of the tractions (K1, K2), and the zones that they mean. */
     rb_contact_kinematics(problem, state, gap, state->lambda);
     rb_contact_classify(problem, ROUNDING, state);
     for (int i = 0; i < problem->n; i++)
@@ -38,7 +39,8 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
             state->p[i] = state->q[i] = 0.0;
     rb_status s = rb_contact_measure(problem, state);
     if (s == RB_OK && !exact) {
-        /* One solve with the zones of the state, kept when that makes it better. */
+        /* One exact solve with the zones of the state (5.2), kept when that makes it better: the
+         * rounding errors of a path of pivots are gone. */
         const size_t bytes = (size_t)problem->n * sizeof(double);
         rb_contact_state trial;
         s = rb_contact_state_alloc(problem->n, &trial);
@@ -69,6 +71,8 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
     }
     if (s != RB_OK)
         return rb_arena_done(&scratch, s);
+    /* In stick the slip is zero, where it is rounding; without friction an element slides as it
+     * moves. */
     for (int i = 0; i < problem->n; i++) {
         if (state->zone[i] == RB_ZONE_STICK)
             state->lambda[i] = 0.0;

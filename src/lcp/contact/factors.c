@@ -324,6 +324,7 @@ static rb_status begin(const rb_contact_problem *p, const int *zone, rb_contact_
     pl->border = rb_arena_zeros(&e->memory, size + (size_t)k->size, sizeof *pl->border);
     if (e->memory.failed)
         return RB_ENOMEM;
+    /* Compare the kept unknowns with the present ones: what has changed becomes a border. */
     make_plan(p, zone, r, k, pl);
     /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
      * steps: least in sum where b is about the root of twice the size. */
@@ -344,6 +345,7 @@ static rb_status begin(const rb_contact_problem *p, const int *zone, rb_contact_
     e->pivots = rb_arena_zeros(&e->memory, (size_t)count, sizeof *e->pivots);
     if (e->memory.failed)
         return RB_ENOMEM;
+    /* The borders V, W, T, and A eliminated from them by its LU: T - W A^-1 V. */
     fill_border(p, r, k, pl, m);
     if (count == 0)
         return RB_OK;
@@ -379,6 +381,7 @@ void rb_contact_elimination_solve(rb_contact_elimination *e, rb_contact_reduced 
     const double along = along_of(e->p),
                  missing_load = r->load ? r->x[r->contacts + r->sticks] * e->p->load : 0.0;
 
+    /* (f, g): the right-hand side, in the order of A's unknowns and then of the borders. */
     memset(f, 0, (size_t)(n + count) * sizeof *f);
     for (int i = 0; i < r->size; i++)
         f[e->plan.source[i]] = r->x[i];
@@ -396,6 +399,7 @@ void rb_contact_elimination_solve(rb_contact_elimination *e, rb_contact_reduced 
     r->growth /= fmax(rb_norm_inf((size_t)n, f), DBL_MIN); /* the digits that cancel */
     for (int i = 0; i < r->size; i++)
         r->x[i] = f[e->plan.source[i]];
+    /* The LU adds the same gap under every load (dense.h), which the approach takes off again. */
     if (r->load)
         r->x[r->contacts + r->sticks] -= along * missing_load / e->p->gap_length;
 }

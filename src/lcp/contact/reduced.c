@@ -27,6 +27,7 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p, rb_contact_unkno
     r->lambda = rb_arena_doubles(&r->memory, n, 1);
     if (r->memory.failed)
         return RB_ENOMEM;
+    /* Unknown: the pressure where the zone is not open, the friction where it is stick. */
     for (int i = 0; i < p->n; i++) {
         if ((unknowns & RB_NORMAL) && zone[i] != RB_ZONE_SEPARATED)
             r->contact[r->contacts++] = i;
@@ -76,6 +77,8 @@ void rb_contact_reduced_right_side(const rb_contact_problem *p, const rb_contact
 {
     int row = 0;
 
+    /* The gap of each element in contact (K1), the slip of each one in stick (K2), the given load
+     * and force (4.6): what of them is left is to vanish. */
     rb_contact_kinematics(p, state, r->gap, r->lambda);
     for (int k = 0; k < r->contacts; k++)
         r->x[row++] = -r->gap[r->contact[k]] / p->gap_length;
@@ -98,6 +101,7 @@ rb_status rb_contact_reduced_add(const rb_contact_problem *p, const rb_contact_r
         if (!isfinite(r->x[i]))
             return RB_SINGULAR;
 
+    /* Where an element slides its friction follows the pressure, |q| = bound p (K3). */
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
         state->p[i] += p->stress * r->x[row++];

@@ -111,6 +111,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
         s = rb_refuse(why, "relaxation-time,relaxation-time-b",
                       "bodies that relax and do not roll steadily need a history "
                       "of steps in time");
+    /* F = F_A + F_B (4.5): each by its row of the table, a matrix or, of many elements, products.
+     */
     if (s == RB_OK)
         s = join_bodies(rc, plan ? plan : &own, mesh, large ? BY_TRANSFORMS : WHOLE, one_body,
                         &bodies->f, why);
@@ -121,12 +123,14 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
     bodies->seconds_assembly = one_body[0].seconds_assembly + one_body[1].seconds_assembly;
     bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;
     bodies->seconds_condense = one_body[0].seconds_condense + one_body[1].seconds_condense;
+    /* The third body between them gives way on the diagonals. */
     if (s == RB_OK && !large)
         s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)
         s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)
         bodies->F = rb_bem_flexibility_stored(&bodies->f);
+    /* Beside a matrix of many elements products, by which Newton's method solves sooner. */
     if (s == RB_OK && !large)
         s = add_transforms(rc, mesh, bodies, why);
     if (s != RB_OK)

@@ -259,6 +259,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 
     if (model->rc->zone > 0.0)
         return unless_open(model, solve_given(model, why), why);
+    /* Begin with the potential contact of the last search, or with that of Hertz's width. */
     if (coarse || !(width(before) > 0.0)) {
         rb_rolling_plan few = model->plan;
         zone = first_zone(model->rc);
@@ -287,6 +288,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
                            "no potential contact was found that encloses the contact: "
                            "the last one tried reaches from %g to %g mm",
                            zone.from, zone.to);
+        /* Solve on equal elements in it. */
         s = equal_elements(model, zone,
                            coarse ? elements_with_room(model->rc, zone, elements) : elements, &mesh,
                            why);
@@ -294,6 +296,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             s = rb_rolling_model_build(model, &mesh, why);
         if (s < 0 || !model->state.p || (s != RB_ZONE && rb_rolling_gave_up(model)))
             return s;
+        /* Too narrow: wider by three tenths where the contact is near an end, and about all places
+         * where the bodies overlap outside. */
         const rb_status t = grown(model, zone, &wider);
         if (t != RB_OK)
             return t;
@@ -321,6 +325,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         }
         const interval wanted = within(scaled(edge, 1.25), extent(model->rc));
         const int more = coarse ? elements : elements_for(model, zone);
+        /* Too wide: the contact fills less than two thirds of it, and it is not known that what is
+         * tighter is too narrow.  Too coarse: patches need shorter elements. */
         const int keeps_zone =
             width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
         if (keeps_zone && more <= 1.25 * elements)
