@@ -177,6 +177,31 @@ TEST(an_accuracy_is_reached_without_a_matrix)
     }
 }
 
+/* At rest equal elements are of first order: 0.001 needs 900 of them, and 1e-5 has none. */
+TEST(an_accuracy_at_rest_takes_no_equal_elements)
+{
+    static const struct {
+        const char *bodies;
+        rb_rolling_mesh_kind mesh;
+    } rows[] = {{"similar yes young 210000 poisson 0.3", RB_MESH_ALIGNED},
+                {unlike, RB_MESH_FITTED}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        static const char base[] = "support halfplane gap parabola radius 50 half-width 0.1 "
+                                   "formulation static mu 0.3 force-ratio 0.5";
+        const words w = {{base, rows[k].bodies, "accuracy 1e-5"}};
+        const words fine = {{base, rows[k].bodies, "mesh fitted"}};
+        OWNED(rb_case_result) r;
+        held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &message));
+        assert_int_equal(rb_case_resolved(c)->rc.mesh, rows[k].mesh);
+        assert_true(r.solution.n < 2000);
+        const rb_rolling_solution best = solved(&fine, 4000);
+        CHECK_REL(r.solution.max_pressure, best.max_pressure, 1e-5, "row %zu: p0", k);
+        CHECK_REL(r.solution.half_width, best.half_width, 1e-5, "row %zu: half-width", k);
+        CHECK_REL(r.solution.tangential_shift, best.tangential_shift, 1e-5, "row %zu: shift", k);
+    }
+}
+
 /* ---- Tables ------------------------------------------------------------------------ */
 
 /* A file of rows x, shape(x) from -to to to. */

@@ -537,6 +537,21 @@ TEST(an_element_that_slides_may_stick)
     rb_rolling_solution_free(&s);
 }
 
+/* Slip that grows from the end of a stick zone on hides no other one: the bar used to have the
+ * friction of one element more, 1.7e-4. */
+TEST(slip_that_begins_beside_stick_hides_none)
+{
+    const rb_rolling_case rc =
+        rolling_case("support halfplane half-width 1 formulation steady creep-ratio 0.4 mesh "
+                     "fitted layer-thickness 2 contact-elements 800");
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
+    CHECK_ABS(s.force_ratio, -0.8566147, e.scalar.force_ratio, "3200 elements: Q/(mu P)");
+    CHECK_MAX(e.scalar.force_ratio, 3e-5, "its bar");
+    rb_rolling_solution_free(&s);
+}
+
 /* A rim that bends: its boundary, not its contact, is what is not resolved. */
 static rb_rolling_case thin_rim(void)
 {

@@ -31,12 +31,22 @@ int rb_rolling_couples(const rb_rolling_case *rc)
                : !rc->elastic_b || !are_alike(&rc->a, &rc->b);
 }
 
+/* Similar homogeneous half-planes with constant friction and nothing between them. */
+static int are_classical(const rb_rolling_case *rc)
+{
+    return rb_rolling_largest_mu(rc) > 0.0 && rc->friction.law == RB_FRICTION_constant &&
+           !rb_rolling_law_depends_on_state(rc) && rc->interlayer_normal == 0.0 &&
+           rc->interlayer_tangential == 0.0 && rc->yield_stress == 0.0 &&
+           rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) && rc->gap != RB_GAP_TABLE &&
+           rc->worn.n == 0 && !rb_rolling_is_strained(rc) && !rb_rolling_couples(rc);
+}
+
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
-    return rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0 &&
-           rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_depends_on_state(rc) &&
-           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
-           rc->yield_stress == 0.0 && rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
-           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && !rb_rolling_is_strained(rc) &&
-           !rb_rolling_couples(rc);
+    return rc->formulation == RB_STEADY && are_classical(rc);
+}
+
+int rb_rolling_cattaneo_holds(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_STATIC && !rb_rolling_has_steps(rc) && are_classical(rc);
 }

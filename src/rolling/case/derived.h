@@ -29,6 +29,8 @@ int rb_rolling_law_depends_on_state(const rb_rolling_case *rc);
 /* 1 if Carter's law applies: steady rolling of similar homogeneous half-planes whose gap
  * is not a table. */
 int rb_rolling_carter_holds(const rb_rolling_case *rc);
+/* The same for Cattaneo's, of contact at rest: one step. */
+int rb_rolling_cattaneo_holds(const rb_rolling_case *rc);
 /* 1: pressure displaces the surfaces along each other, and friction apart: the bodies are unlike,
  * and tractions have other exponents at the edges than the square root (E1). */
 int rb_rolling_couples(const rb_rolling_case *rc);

@@ -354,11 +354,11 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("mesh", RC(mesh), meshes,
                    "equal elements, fitted to the contact edges, equal ones aligned with them, or "
                    "those of a punch that ends where its gap file ends",
-                   .unset = "fitted in steady rolling under a given load, half-width or "
-                            "approach without zone and gap file, aligned from 150 elements on "
-                            "between similar half-planes, from 401 on between other flat bodies, "
-                            "from 1500 on with wheels; uniform from 241 on where mu beta >= 1; "
-                            "else uniform",
+                   .unset = "fitted in steady rolling, and at rest with --accuracy, under a given "
+                            "load, half-width or approach without zone and gap file, aligned from "
+                            "150 elements on between similar half-planes and with --accuracy, "
+                            "from 1500 on with wheels without cover; uniform from 241 on where mu "
+                            "beta >= 1; else uniform",
                    .common = 1),
     RB_CHOICE_LINE("slip-operator", RC(slip_operator), slip_operators,
                    "steady, equal elements: difference to the element upstream, or of "

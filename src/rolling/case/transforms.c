@@ -19,12 +19,13 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
                       rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
 }
 
-/* Elements of any lengths, rolling steadily.
+/* Elements of any lengths, in one step.
  * From mu beta = 1 on many steps of Newton fail, and those of Lemke want a matrix. */
 static int suits_fitted_products(const rb_rolling_case *rc)
 {
-    return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM &&
-           rc->yield_stress == 0.0 && rb_rolling_mu_beta(rc) < 1.0;
+    return rc->formulation != RB_TRANSIENT && !rb_rolling_has_steps(rc) &&
+           rc->slip_operator == RB_SLIP_UPSTREAM && rc->yield_stress == 0.0 &&
+           rb_rolling_mu_beta(rc) < 1.0;
 }
 
 static int suits_transforms(const rb_rolling_case *rc)

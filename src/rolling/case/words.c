@@ -238,6 +238,8 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* half as many, by which error bars are found, are still aligned elements */
 enum { LEAST_REFINED = 24 };
+/* An accuracy that half of the usual fitted elements have mostly. */
+static const double ROUGH = 4e-3;
 
 /* Half-planes under a gap from a file have the radius of the gap, or none. */
 static void set_radius(rb_case *c)
@@ -415,17 +417,25 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int scales =
         ((!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc)) || !isnan(rc->moment)) &&
         !rb_case_has_steps(&c->resolved);
+    const int to_accuracy = c->resolved.accuracy > 0.0;
     /* of second order between similar half-planes, and the cheapest where there will be many */
-    const int refined = c->resolved.accuracy > 0.0 && rb_rolling_carter_holds(rc) &&
+    const int refined = to_accuracy &&
+                        (rb_rolling_carter_holds(rc) || rb_rolling_cattaneo_holds(rc)) &&
                         rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
-    if (!rb_case_given(c, "mesh") && (rc->formulation == RB_STEADY || scales) && !paper &&
+    /* at rest equal elements are of first order: an accuracy asks for fewer of other ones */
+    const int refined_at_rest =
+        to_accuracy && rc->formulation == RB_STATIC && !many && !rb_case_has_steps(&c->resolved);
+    if (!rb_case_given(c, "mesh") &&
+        (rc->formulation == RB_STEADY || scales || refined_at_rest || refined) && !paper &&
         !(strong && many && !scales) && rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
         !c->resolved.worn_file && rc->period == 0.0)
         rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
                                                                               : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "contact-elements") &&
         (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
-        rc->contact_elements = 100;
+        rc->contact_elements = refined && rc->formulation == RB_STATIC                      ? 30
+                               : c->resolved.accuracy > ROUGH && rc->mesh == RB_MESH_FITTED ? 50
+                                                                                            : 100;
     /* Q = 0, which a shift does not say where all of a period sticks, nor on a smooth base */
     if (((rc->period > 0.0 && isnan(rc->approach)) ||
          (rc->formulation == RB_STATIC && rb_rolling_slides_on_base(rc))) &&

@@ -126,19 +126,37 @@ static double pressure_of_unresolved_stick(const rb_rolling_solution *s)
     return most;
 }
 
+static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
+{
+    return s->shift[i] / (rc->formulation == RB_STEADY ? s->h[i] : 1.0); /* over an element */
+}
+
+/* Whether slip of one direction grows from a stick zone on, as far as element i: the zone ends
+ * where the mesh shows it, and there is no other one between. */
+static int grows_from_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        int j = i;
+        while (j + side >= 0 && j + side < s->n && s->zone[j + side] == s->zone[i] &&
+               fabs(slip_of(rc, s, j + side)) < fabs(slip_of(rc, s, j)))
+            j += side;
+        if (j + side >= 0 && j + side < s->n && s->zone[j + side] == RB_ZONE_STICK)
+            return 1;
+    }
+    return 0;
+}
+
 /* Whether an element slips by no more than the slip changes from there to the next one: a
  * finer mesh may find that some of it sticks. */
 static int may_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
 {
-    const int rolls = rc->formulation == RB_STEADY; /* slip over an element */
-    const double own = s->shift[i] / (rolls ? s->h[i] : 1.0);
+    const double own = slip_of(rc, s, i);
 
     for (int j = i - 1; j <= i + 1; j += 2) {
         if (j < 0 || j >= s->n || s->zone[j] == RB_ZONE_SEPARATED)
             continue;
-        const double next = s->shift[j] / (rolls ? s->h[j] : 1.0);
-        if (s->zone[i] > RB_ZONE_STICK && fabs(own) <= fabs(own - next))
-            return 1;
+        if (s->zone[i] > RB_ZONE_STICK && fabs(own) <= fabs(own - slip_of(rc, s, j)))
+            return !grows_from_stick(rc, s, i);
     }
     return 0;
 }
@@ -540,7 +558,8 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
 
 /* Makes the elements of the contact and those of the boundary finer: each until its part of
  * the error is what the other one leaves of the accuracy, half of it at least, and by at
- * most two because an error may fall faster than its order says.  0: the limit of a part
+ * most two because an error may fall faster than its order says.  That of fitted elements on flat
+ * bodies hardly does, and many of them cost little: by at most four.  0: the limit of a part
  * is reached, or twice that would not do. */
 static int refine(double accuracy, double contact, double boundary, int fitted, rb_rolling_case *rc)
 {
@@ -549,7 +568,8 @@ static int refine(double accuracy, double contact, double boundary, int fitted, 
     const double most = wheels                               ? MOST_ON_WHEELS
                         : rb_rolling_suits_large(rc, &twice) ? MOST_WITHOUT_MATRIX
                                                              : MOST_ELEMENTS;
-    const double order = fitted ? 2.0 : 1.0;
+    const double order = fitted ? 2.0 : 1.0, step = fitted && !wheels ? 4.0 : 2.0,
+                 spare = wheels ? 1.1 : 1.2;
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
     const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
     const double for_boundary = fmax(0.5 * accuracy, accuracy - contact);
@@ -558,7 +578,7 @@ static int refine(double accuracy, double contact, double boundary, int fitted, 
 
     if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
         return 0;
-    const double finer = fmin(most / n, fmin(2.0, n_factor > 1.0 ? 1.1 * n_factor : 1.0));
+    const double finer = fmin(most / n, fmin(step, n_factor > 1.0 ? spare * n_factor : 1.0));
     rc->contact_elements = (int)(finer * n + 0.5);
     rc->steps = (int)ceil(finer * rc->steps);
     rc->outer_refinement =
@@ -576,8 +596,9 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     int round = 0, stood = 0; /* rounds in which the bars did not fall */
     rb_status status = rb_rolling_error_check(rc, why);
     const int second_order = rb_rolling_mesh_is_graded(rc) ||
-                             (rc->mesh == RB_MESH_ALIGNED && rc->slip_operator == RB_SLIP_SECOND &&
-                              rb_rolling_carter_holds(rc));
+                             (rc->mesh == RB_MESH_ALIGNED && (rc->slip_operator == RB_SLIP_SECOND
+                                                                  ? rb_rolling_carter_holds(rc)
+                                                                  : rb_rolling_cattaneo_holds(rc)));
 
     memset(solution, 0, sizeof *solution);
     *errors = rb_rolling_no_row(RB_OK).errors;
