@@ -1506,4 +1506,27 @@ TEST(every_edit_is_named)
     assert_int_equal(wrong, 0);
 }
 
+/* Which half of a material was not given stands in the notes, and not in the inputs: it is judged
+ * by the value that it names. */
+TEST(what_is_said_of_a_material_is_checked)
+{
+    static const char *const materials[][2] = {
+        {"--outer-elements 30 --young 210000", "--young without --poisson: nu = 0.1 is"},
+        {"--outer-elements 30 --young 60ShoreA --poisson 0.49 --load 5",
+         "--young of 60 ShoreA is E = 3.605 MPa"},
+        {"--support halfplane --young 7e4 --poisson .2 --layer-thickness 1 --base-young 2e5 --load "
+         "99",
+         "--base-young without --base-poisson: nu = 0.1 is"}};
+    for (size_t k = 0; k < sizeof materials / sizeof *materials; k++) {
+        held_json *root = run_jsonf("%s --contact-elements 12", materials[k][0]);
+        const json_t *notes = json_object_get(root, "notes");
+        const char *last = json_string_value(json_array_get(notes, json_array_size(notes) - 1));
+        assert_non_null(strstr(NOT_NULL(last), materials[k][1]));
+        assert_int_equal(json_dump_file(root, "r.json", 0), 0);
+        CHECK_RUN(rollbem("check r.json"), 0, out, "r.json: valid");
+    }
+    assert_int_equal(shell("sed -i 's/nu = 0.1 is/nu = 0.2 is/' r.json"), 0);
+    CHECK_RUN(rollbem("check r.json"), 1, out, "violated: notes");
+}
+
 RUN_TESTS(enter_folder, leave_folder)

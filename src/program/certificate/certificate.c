@@ -200,6 +200,19 @@ static void judge_proof(rb_certificate *c, const json_t *summary)
                                 within, proof->stored_within);
 }
 
+/* What is said of the materials is judged by their values: that one of them was not given is known
+ * from no input. */
+static void confirm_materials(const json_t *root, const rb_case *words, rb_rolling_note_list *notes)
+{
+    const json_t *said = json_object_get(root, "notes");
+
+    for (size_t k = 0; k < json_array_size(said); k++) {
+        const char *note = json_string_value(json_array_get(said, k));
+        if (note)
+            rb_case_confirm_materials(words, note, notes);
+    }
+}
+
 static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb_message *why)
 {
     const source *of = context;
@@ -232,9 +245,10 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
     if (s == RB_OK && has_solutions && c->judges)
         s = judge_solutions(c, &p, why);
     if (s == RB_OK) {
-        const rb_rolling_note_list notes =
+        rb_rolling_note_list notes =
             is_given ? (rb_rolling_note_list){.n = 0}
                      : rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, &p.r.solution);
+        confirm_materials(root, of->words, &notes);
         *again = rb_report_json_document(&(rb_report_document){
             .command = rb_certificate_word(root, "command"),
             .words = of->words,
@@ -264,9 +278,10 @@ static rb_status write_crack(rb_certificate *c, void *context, json_t **again, r
 
     if (s == RB_OK) {
         const rb_rolling_solution *contact = &r.contact.solution;
-        const rb_rolling_note_list notes =
+        rb_rolling_note_list notes =
             contact->n > 0 ? rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, contact)
                            : (rb_rolling_note_list){.n = 0};
+        confirm_materials(of->root, of->words, &notes);
         *again = rb_report_json_document(
             &(rb_report_document){.command = rb_certificate_word(of->root, "command"),
                                   .words = of->words,

@@ -113,12 +113,14 @@ cli_exit cli_case_refuse(const rb_case *c, const char *about, const char *format
 
 /* ---- Commands that solve one ------------------------------------------------------ */
 
-/* Those on the rows of a curve, or on the solution; n = 0: none. */
+/* Those on the rows of a curve, or on the solution, and on the materials as they were given. */
 static rb_rolling_note_list notes_of(const cli_case_run *run)
 {
-    return run->notes      ? *run->notes
-           : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
-                           : (rb_rolling_note_list){.n = 0};
+    rb_rolling_note_list notes = run->notes      ? *run->notes
+                                 : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
+                                                 : (rb_rolling_note_list){.n = 0};
+    rb_case_note_materials(run->words, &notes);
+    return notes;
 }
 
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
@@ -164,9 +166,7 @@ enum { LARGE_WINDOW = 30 }; /* lines */
 static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
-    rb_rolling_note_list notes = notes_of(run);
-    /* only here: which halves were given is no part of a result, whose inputs name both */
-    rb_case_note_materials(run->words, &notes);
+    const rb_rolling_note_list notes = notes_of(run);
     rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
     /* in a small window the table needs the line more than what was typed just now */

@@ -253,6 +253,9 @@ const char *rb_case_hardness(const rb_case *c, int k, char *text, size_t room);
 enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 11 };
 void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes);
 void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes);
+/* Adds what is said, if it is such a sentence with the values of the case: for one whose words were
+ * read from a result, which names all values and not which of them were given. */
+void rb_case_confirm_materials(const rb_case *c, const char *said, rb_rolling_note_list *notes);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value
  * is in a file, the message gets the file and the line, and its numbers are said in the units of
  * the case.  Returns the status to report. */
