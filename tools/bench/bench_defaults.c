@@ -1,12 +1,16 @@
 /* The mesh that the program chooses beside equal elements of the same number, steady rolling:
- * processor time of a whole solution, the least of three, with the reading of options and the
- * search for free rolling, and Q/(mu P) on both. */
+ * processor time of a whole solution, the least of as many as half a second holds, three to fifty,
+ * because the first ones of a process take up to four times as long; with the reading of options
+ * and the search for free rolling, and Q/(mu P) on both. */
 #include "fast_blas.h"
 #include "rolling/case/case.h"
 #include "rows.h"
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 static const struct {
     const char *name, *options; /* name value name value ... */
@@ -21,6 +25,17 @@ static const struct {
             {"arc", "support arc", 100},
             {"rigid plane, mu beta = 1.1", "support halfplane mu 2.5", 1600},
             {"rigid plane, mu beta = 4.4", "support halfplane mu 10", 1600}};
+
+/* Memory that malloc gives back to the system and gets again costs small meshes up to four times
+ * their solution, or nothing, as the heap of the process happens to lie: it keeps all. */
+static void keep_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 25);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 1 << 26);
+#endif
+}
 
 typedef struct {
     double seconds, force_ratio;
@@ -41,9 +56,11 @@ static rb_status set_words(rb_case *c, const char *options, rb_message *why)
 
 static outcome solve_row(int row, const char *mesh)
 {
+    enum { LEAST = 3, MOST = 50 };
     outcome o = {INFINITY, 0.0};
+    double spent = 0.0;
 
-    for (int k = 0; k < 3 && !(k > 0 && o.seconds > 2.0); k++) {
+    for (int k = 0; k < MOST && (k < LEAST || spent < 0.5) && !(k > 0 && o.seconds > 2.0); k++) {
         rb_message why = {.text = ""};
         rb_case_result result = {0};
         const double start = processor_seconds();
@@ -64,7 +81,9 @@ static outcome solve_row(int row, const char *mesh)
             fprintf(stderr, "bench_defaults: %s: %s\n", rows[row].name, why.text);
             exit(70);
         }
-        o.seconds = fmin(o.seconds, processor_seconds() - start);
+        const double seconds = processor_seconds() - start;
+        spent += seconds;
+        o.seconds = fmin(o.seconds, seconds);
         o.force_ratio = result.solution.force_ratio;
         rb_case_result_free(&result);
         rb_case_free(c);
@@ -76,6 +95,7 @@ int main(int argc, char **argv)
 {
     (void)argc;
     fast_blas(argv);
+    keep_memory();
     solve_row(0, ""); /* what the first solution of a process alone takes */
     printf("| | elements | default | equal | ratio | Q/(mu P), default | equal |\n"
            "|---|---|---|---|---|---|---|\n");
