@@ -283,12 +283,6 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     return refit(model, 0.0, 1, AT_REST, why);
 }
 
-/* 1: with a matrix half of the elements cost little. */
-static int pays_with_half(int elements)
-{
-    return elements >= 2 * FIRST && elements < RB_ROLLING_TRANSFORMS_FITTED;
-}
-
 rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model *model,
                                 rb_message *why)
 {
@@ -296,7 +290,6 @@ rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model
     const rb_bem_flexibility *f = &beside->bodies.f;
     const rb_rolling_elements elements = {.n = f->n, .x = f->x, .h = f->h};
     const double longest = rb_rolling_longest_element(f->n, beside->state.zone, f->h);
-    const int asked = model->plan.elements, by_half = pays_with_half(asked);
     rb_status s = rb_rolling_mesh_of_result(model->rc, &elements, &model->mesh, why);
 
     if (s == RB_OK)
@@ -306,14 +299,7 @@ rb_status rb_rolling_fit_beside(const rb_rolling_model *beside, rb_rolling_model
     if (s != RB_OK)
         return s;
     rb_contact_copy_start(&beside->state, &model->state);
-    if (by_half) {
-        model->plan.elements = asked / 2;
-        s = refit(model, ROOM, 0, TO_GO_ON, why);
-        model->plan.elements = asked;
-    }
-    return s != RB_OK ? s
-                      : refit(model, by_half ? 0.0 : ROOM,
-                              longest > SHORT * rb_rolling_radius(model->rc), AT_REST, why);
+    return refit(model, ROOM, longest > SHORT * rb_rolling_radius(model->rc), AT_REST, why);
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
@@ -322,7 +308,8 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
     const int fine = rb_rolling_has_fine_boundary(&asked),
               has_far = rb_rolling_has_far_field(model->rc),
               by_far_field = has_far && asked.elements >= FIRST;
-    int halvings = pays_with_half(asked.elements);
+    /* with a matrix half of the elements cost little */
+    int halvings = asked.elements >= 2 * FIRST && asked.elements < RB_ROLLING_TRANSFORMS_FITTED;
 
     while (asked.elements > RB_ROLLING_FITTED_AT_ONCE &&
            asked.elements >> halvings > RB_ROLLING_COARSEST_FITTED)
