@@ -84,6 +84,11 @@ static rb_status search(rb_rolling_case *at, double wanted, int follows, double 
             x = isnan(low) ? x - M_LN2 : 0.5 * (low + high);
             continue;
         }
+        if (s > RB_OK && s != RB_ZONE) { /* a solver's words name no option */
+            const rb_message reason = *why;
+            return rb_fail(why, s, "max-pressure: its search ended under %g N/mm: %s", *load,
+                           reason.text);
+        }
         if (s != RB_OK)
             return s;
         if (follows && isnan(multiple)) {
