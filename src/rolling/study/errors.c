@@ -207,12 +207,37 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
     return hidden;
 }
 
+/* The largest pressure [stress] to which that of a stick zone, smooth there, goes on at its limits.
+ * Between unlike bodies it falls from there with an infinite slope where they slip, and elements
+ * do not show how high it was.  0: the mesh tells it nowhere. */
+static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    enum { SECOND = 2, LAST = 4 }; /* the first one errs by what it does not show beside it */
+    double most = 0.0;
+
+    for (int i = 0; i < s->n && rb_rolling_couples(rc); i++)
+        for (int side = -1; side <= 1; side += 2) {
+            const int last = i - LAST * side, beyond = i + side;
+            int sticks = last >= 0 && last < s->n && beyond >= 0 && beyond < s->n &&
+                         s->zone[beyond] > RB_ZONE_STICK;
+            for (int k = 0; k <= LAST && sticks; k++)
+                sticks = s->zone[i - k * side] == RB_ZONE_STICK;
+            if (!sticks)
+                continue;
+            const int second = i - SECOND * side;
+            const double slope = (s->p[second] - s->p[last]) / (s->x[second] - s->x[last]);
+            most =
+                fmax(most, s->p[second] + slope * (s->x[i] + 0.5 * side * s->h[i] - s->x[second]));
+        }
+    return most;
+}
+
 /* What no mesh tells apart: rounding and the tolerance of the solver, in units of what
  * the scalar is made of; the length of an element, where it is the place where stick
  * begins; slip over an element; the friction of an element that may stick; the pressure
- * at a corner, which is infinite, on elements ten times shorter; and with an unresolved
- * stick zone the friction of an element, and the pressure that a jump of friction brings
- * about there between dissimilar bodies.  of_stress: 0 for the pressure, 1 for stresses. */
+ * at a corner, which is infinite, on elements ten times shorter, and at a limit of stick; and with
+ * an unresolved stick zone the friction of an element, and the pressure that a jump of friction
+ * brings about there between dissimilar bodies.  of_stress: 0 for the pressure, 1 for stresses. */
 static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s, int of_stress,
                           rb_rolling_error_scale scale)
 {
@@ -257,7 +282,9 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         const double rise = M_LN10 * M_2_PI * rb_rolling_largest_mu(rc) *
                             fabs(rb_rolling_derive(rc).dundurs) * unresolved;
         return rounding * s->max_pressure +
-               (of_stress ? rise : fmax(0.0, unresolved + rise - s->max_pressure)) +
+               (of_stress ? rise
+                          : fmax(0.0, fmax(unresolved + rise, pressure_at_limits_of_stick(rc, s)) -
+                                          s->max_pressure)) +
                rb_rolling_rise_in_patches(rc, s, 10.0) + missed;
     }
     case RB_SCALE_POWER: {
