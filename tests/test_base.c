@@ -211,7 +211,6 @@ TEST(only_characters_are_printed)
     }
 }
 
-/* A third of the letters may be wrong: left out, one more, another one, two swapped. */
 /* The first of 15, 16 and 17 digits that reads back. */
 static void check_number_text(double x)
 {
@@ -249,6 +248,7 @@ TEST(numbers_have_the_fewest_digits_that_read_back)
     }
 }
 
+/* A third of the letters may be wrong: left out, one more, another one, two swapped. */
 TEST(misspelt_words_are_guessed)
 {
     static const char *const names[] = {"creep", "load", "load-factor", "mu"};
