@@ -22,12 +22,12 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
     if (!state->p || state->status != RB_OK)
         return rb_fail(why, RB_INACCURATE, "derivatives: the case was not solved");
     if (!isnan(rc->pressed_by))
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives: under --max-pressure only where Hertz's formula says the "
-                       "load; here it is "
-                       "searched for, and another input would have another load. At a fixed one: "
-                       "--load %.10g N/mm",
-                       rc->pressed_by);
+        return rb_fail(
+            why, RB_EINVAL,
+            "derivatives: under --max-pressure only where Hertz's formula says the "
+            "load; here it is searched for, and another input would have another load. At a "
+            "fixed one: --load %.10g N/mm",
+            rc->pressed_by);
     if (rc->period > 0.0)
         return rb_fail(why, RB_EINVAL, "derivatives: with a period not known");
     if (!isnan(rc->tilted_by))
