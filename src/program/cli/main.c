@@ -10,6 +10,9 @@
 #include <unistd.h>
 
 #include <gsl/gsl_errno.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 static const cli_command commands[] = {
     {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
@@ -49,6 +52,17 @@ __attribute__((constructor(101))) static void wait_passively(void)
     setenv("OMP_WAIT_POLICY", "passive", 0);
 }
 
+/* Matrices of up to some MB come and go in every solution.  glibc would give their memory back to
+ * the system at first, until it has adapted itself to these values, and to ask for its pages again
+ * takes up to a tenth of a case. */
+static void keep_freed_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
+}
+
 /* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
 static int finished;
 
@@ -77,6 +91,7 @@ int main(int argc, char **argv)
     }
     if (!getenv("OPENBLAS_NUM_THREADS"))
         rb_blas_threads(1);
+    keep_freed_memory();
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
     signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
