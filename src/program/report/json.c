@@ -194,11 +194,59 @@ json_t *rb_report_json_table(const rb_rolling_solution *s)
     return table;
 }
 
+static void begin_line(FILE *out, int depth)
+{
+    fputc('\n', out);
+    for (int i = 0; i < depth; i++)
+        fputc(' ', out);
+}
+
+/* As jansson writes it, each member in a line of its own; but numbers have as many digits as in
+ * tables, 0.3 for its 0.29999999999999999.  0: written, or the file has an error; otherwise memory
+ * is short. */
+static int write_value(const json_t *value, int depth, FILE *out)
+{
+    if (json_is_real(value)) {
+        char text[RB_NUMBER_TEXT];
+        rb_number_text(json_real_value(value), text);
+        fputs(text, out);
+        if (!strpbrk(text, ".e"))
+            fputs(".0", out);
+        return 0;
+    }
+    const int is_object = json_is_object(value), is_array = json_is_array(value);
+    if (!is_object && !is_array)
+        return json_dumpf(value, out, JSON_ENCODE_ANY);
+    const size_t n = is_object ? json_object_size(value) : json_array_size(value);
+    void *member = is_object ? json_object_iter((json_t *)value) : NULL;
+    int failed = 0;
+    fputc(is_object ? '{' : '[', out);
+    for (size_t i = 0; i < n && !failed; i++) {
+        begin_line(out, depth + 1);
+        if (is_object) {
+            json_t *key = json_string(json_object_iter_key(member));
+            failed = !key || json_dumpf(key, out, JSON_ENCODE_ANY);
+            json_decref(key);
+            fputs(": ", out);
+        }
+        const json_t *next = is_object ? json_object_iter_value(member) : json_array_get(value, i);
+        failed = failed || write_value(next, depth + 1, out);
+        if (i + 1 < n)
+            fputc(',', out);
+        if (is_object)
+            member = json_object_iter_next((json_t *)value, member);
+    }
+    if (n > 0)
+        begin_line(out, depth);
+    fputc(is_object ? '}' : ']', out);
+    return failed;
+}
+
 rb_status rb_report_json_write(FILE *out, json_t *json)
 {
     if (!json)
         return RB_ENOMEM;
-    const int failed = json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0;
+    const int failed = write_value(json, 0, out);
     json_decref(json);
     if (failed && !ferror(out))
         return RB_ENOMEM;
