@@ -922,7 +922,7 @@ TEST(what_cannot_be_checked_is_refused)
     check_says("echo '[]'", 65, "expected the JSON of a result");
     check_says("echo '{'", 65, "expected the JSON of a result");
     check_says("echo '{}'", 65, "not a result of schema");
-    snprintf(line, sizeof line, "%s | sed 's/\"mu\": 0.29*8*/\"mu\": \"x/'", half);
+    snprintf(line, sizeof line, "%s | sed 's/\"mu\": 0.3/\"mu\": \"x/'", half);
     check_says(line, 65, "r.json");
     snprintf(line, sizeof line, "%s | sed '/\"approach\": [0-9]/s/: ./: 9/'", half);
     check_says(line, 1, "violated: gap");
