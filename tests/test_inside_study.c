@@ -128,7 +128,11 @@ static void check_bars(const rb_rolling_case *rc)
             if (r->error_bar != scales[k].scale || isnan(value + v[0] + v[1]))
                 continue;
             const double bar = rb_rolling_contact_error(v, value) + scales[k].least;
-            CHECK_REL(rb_rolling_number(r, &e.scalar), bar, 1e-9, "%s", r->name);
+            /* between unlike bodies p0 has more: what the pressure may be at a limit of stick */
+            if (r->error_bar == RB_SCALE_PRESSURE && !rc->elastic_b)
+                CHECK_MAX(bar, (1.0 + 1e-9) * rb_rolling_number(r, &e.scalar), "%s", r->name);
+            else
+                CHECK_REL(rb_rolling_number(r, &e.scalar), bar, 1e-9, "%s", r->name);
             counted++;
         }
         if (r->error_bar == RB_SCALE_NONE && r->kind != RB_RESULT_WHOLE)

@@ -537,8 +537,10 @@ TEST(transforms_are_for_many_elements_on_half_planes)
     const rb_rolling_mesh fitted = {.n = RB_ROLLING_TRANSFORMS_FITTED}, below = {.n = fitted.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &fitted), 1, rc.mesh = RB_MESH_FITTED);
     HOLDS(rb_rolling_is_large(&rc, &below), 0, rc.mesh = RB_MESH_FITTED);
-    HOLDS(rb_rolling_is_large(&rc, &fitted), 0, rc.mesh = RB_MESH_FITTED;
+    HOLDS(rb_rolling_is_large(&rc, &fitted), 1, rc.mesh = RB_MESH_FITTED;
           rc.formulation = RB_STATIC);
+    HOLDS(rb_rolling_is_large(&rc, &fitted), 0, rc.mesh = RB_MESH_FITTED;
+          rc.formulation = RB_TRANSIENT);
     HOLDS(rb_rolling_is_large(&rc, &fitted), 1, rc.mesh = RB_MESH_FITTED;
           rc.interlayer_tangential = 1e-6);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.yield_stress = 1.0);

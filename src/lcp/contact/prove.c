@@ -50,6 +50,8 @@ static double unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
             s->zone[i] == RB_ZONE_SLIP_NEGATIVE || s->zone[i] == RB_ZONE_SLIP_POSITIVE;
         const double most = p->bound[i] * s->p[i], plastic = p->yield ? o * s->plastic[i] : 0.0;
         double gamma = o * s->q[i] + most, slip = o * s->lambda[i] - plastic;
+        /* a slip against its zone is rounding: its row shows it, as a part of its terms */
+        const int is_forward = slides && most > 0.0 && o * rb_contact_slope(s->zone[i]) < 0.0;
         if (slides && most > 0.0) {
             const double r_T = rb_contact_slope(s->zone[i]) * most;
             differ = fmax(differ, fabs(s->q[i] - r_T) / most);
@@ -61,7 +63,7 @@ static double unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
             slip = 0.0; /* all of it is plastic */
         z[i] = s->p[i];
         z[n + i] = gamma;
-        z[2 * n + i] = s->zone[i] == RB_ZONE_STICK ? 0.0 : fmax(0.0, -slip);
+        z[2 * n + i] = s->zone[i] == RB_ZONE_STICK || is_forward ? 0.0 : fmax(0.0, -slip);
         if (lcp->yields) {
             z[3 * n + i] = fmax(0.0, plastic);
             z[4 * n + i] = fmax(0.0, -plastic);
