@@ -3,14 +3,12 @@
  * because the first ones of a process take up to four times as long; with the reading of options
  * and the search for free rolling, and Q/(mu P) on both. */
 #include "fast_blas.h"
+#include "keep_memory.h"
 #include "rolling/case/case.h"
 #include "rows.h"
 
 #include <stdlib.h>
 #include <string.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 static const struct {
     const char *name, *options; /* name value name value ... */
@@ -25,17 +23,6 @@ static const struct {
             {"arc", "support arc", 100},
             {"rigid plane, mu beta = 1.1", "support halfplane mu 2.5", 1600},
             {"rigid plane, mu beta = 4.4", "support halfplane mu 10", 1600}};
-
-/* Memory that malloc gives back to the system and gets again costs small meshes up to four times
- * their solution, or nothing, as the heap of the process happens to lie: it keeps all. */
-static void keep_memory(void)
-{
-#ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 1 << 25);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    mallopt(M_TOP_PAD, 1 << 26);
-#endif
-}
 
 typedef struct {
     double seconds, force_ratio;

@@ -3,6 +3,7 @@
  * threads that OpenMP takes by itself and with one; CONTACT's input file beside the same elements
  * by options; the numbers of all elements printed, beside the solution alone.  B: the build
  * directory. */
+#include "keep_memory.h"
 #include "rows.h"
 #include "words.h"
 
@@ -183,6 +184,7 @@ static void numbers_beside_none(void)
 
 int main(void)
 {
+    keep_memory();
     snprintf(program, sizeof program, "%s/rollbem", getenv("B") ? getenv("B") : "build");
     threads_beside_one();
     contact_beside_options();
