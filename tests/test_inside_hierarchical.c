@@ -181,15 +181,17 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
         r[j] = j < N ? sin(1.0 + j) : j == N + 3;
     CHECK_OK(
         rb_bem_displacement_subtracted(system, RB_BEM_NORMALS_OBSTACLE, LOADS, r, w, w0, &message));
+    /* a solution errs by a part of the largest displacement, by clusters more than by the matrix */
+    double most = 0.0;
+    for (int i = 0; i < N * ROWS; i++)
+        most = fmax(most, fabs(F[i]));
     for (int i = 0; i < LOADS * ROWS; i++) {
-        double want = 0.0, size = 0.0;
-        for (int j = 0; j < N; j++) {
-            const double part = F[i % ROWS + j * ROWS] * r[i / ROWS * N + j];
-            want += part;
-            size += fabs(part);
-        }
-        CHECK_ABS(w[i], want, 1e-10 * size, "row %d of load %d", i % ROWS, i / ROWS);
-        CHECK_ABS(w0[i % ROWS], f.w0[i % ROWS], 1e-12 * size, "row %d without loads", i % ROWS);
+        double want = 0.0;
+        for (int j = 0; j < N; j++)
+            want += F[i % ROWS + j * ROWS] * r[i / ROWS * N + j];
+        CHECK_ABS(w[i], want, (dense ? 1e-11 : 1e-8) * most, "row %d of load %d", i % ROWS,
+                  i / ROWS);
+        CHECK_ABS(w0[i % ROWS], f.w0[i % ROWS], 1e-12 * most, "row %d without loads", i % ROWS);
     }
 }
 
