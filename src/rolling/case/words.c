@@ -355,6 +355,49 @@ static rb_status find_tilt(rb_case *c, rb_message *why)
     return rb_rolling_find_tilt(&c->resolved.rc, why);
 }
 
+/* The default mesh and how many elements it has, unless they are given.  The paper's own example
+ * stays on its equal elements, as do large contacts, which need them. */
+static void set_mesh(rb_case *c)
+{
+    rb_rolling_case *rc = &c->resolved.rc;
+    const int paper = !rb_rolling_pressing_is_given(rc);
+    const rb_rolling_mesh equal = {.n = rc->contact_elements};
+    const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
+    rb_rolling_case fitted = *rc;
+    fitted.mesh = RB_MESH_FITTED;
+    const int strong = rb_rolling_mu_beta(rc) >= 1.0;
+    const int most = !graded                                   ? 0
+                     : rb_rolling_suits_large(&fitted, &equal) ? RB_ROLLING_GRADED_BY_PRODUCTS_UP_TO
+                     : strong                                  ? RB_ROLLING_GRADED_STRONG_UP_TO
+                                                               : RB_ROLLING_GRADED_UP_TO;
+    const int many =
+        rc->contact_elements > most &&
+        (rc->contact_elements >= RB_ROLLING_EQUAL_FROM || rb_rolling_suits_large(rc, &equal));
+    /* the search for a load needs a mesh that scales with the contact */
+    const int scales =
+        ((!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc)) || !isnan(rc->moment)) &&
+        !rb_case_has_steps(&c->resolved);
+    const int to_accuracy = c->resolved.accuracy > 0.0;
+    /* of second order between similar half-planes, and the cheapest where there will be many */
+    const int refined = to_accuracy &&
+                        (rb_rolling_carter_holds(rc) || rb_rolling_cattaneo_holds(rc)) &&
+                        rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
+    /* at rest equal elements are of first order: an accuracy asks for fewer of other ones */
+    const int refined_at_rest =
+        to_accuracy && rc->formulation == RB_STATIC && !many && !rb_case_has_steps(&c->resolved);
+    if (!rb_case_given(c, "mesh") &&
+        (rc->formulation == RB_STEADY || scales || refined_at_rest || refined) && !paper &&
+        !(strong && many && !scales) && rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
+        !c->resolved.worn_file && rc->period == 0.0)
+        rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
+                                                                              : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "contact-elements") &&
+        (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
+        rc->contact_elements = refined && rc->formulation == RB_STATIC                      ? 30
+                               : c->resolved.accuracy > ROUGH && rc->mesh == RB_MESH_FITTED ? 50
+                                                                                            : 100;
+}
+
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
@@ -397,45 +440,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     s = rb_rolling_find_ellipse(&c->resolved.rc, why);
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
-    /* The paper's own example stays on its equal elements, as do large contacts, which
-     * need them. */
+    set_mesh(c);
     rb_rolling_case *rc = &c->resolved.rc;
-    const int paper = !rb_rolling_pressing_is_given(rc);
-    const rb_rolling_mesh equal = {.n = rc->contact_elements};
-    const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
-    rb_rolling_case fitted = *rc;
-    fitted.mesh = RB_MESH_FITTED;
-    const int strong = rb_rolling_mu_beta(rc) >= 1.0;
-    const int most = !graded                                   ? 0
-                     : rb_rolling_suits_large(&fitted, &equal) ? RB_ROLLING_GRADED_BY_PRODUCTS_UP_TO
-                     : strong                                  ? RB_ROLLING_GRADED_STRONG_UP_TO
-                                                               : RB_ROLLING_GRADED_UP_TO;
-    const int many =
-        rc->contact_elements > most &&
-        (rc->contact_elements >= RB_ROLLING_EQUAL_FROM || rb_rolling_suits_large(rc, &equal));
-    /* the search for a load needs a mesh that scales with the contact */
-    const int scales =
-        ((!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc)) || !isnan(rc->moment)) &&
-        !rb_case_has_steps(&c->resolved);
-    const int to_accuracy = c->resolved.accuracy > 0.0;
-    /* of second order between similar half-planes, and the cheapest where there will be many */
-    const int refined = to_accuracy &&
-                        (rb_rolling_carter_holds(rc) || rb_rolling_cattaneo_holds(rc)) &&
-                        rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
-    /* at rest equal elements are of first order: an accuracy asks for fewer of other ones */
-    const int refined_at_rest =
-        to_accuracy && rc->formulation == RB_STATIC && !many && !rb_case_has_steps(&c->resolved);
-    if (!rb_case_given(c, "mesh") &&
-        (rc->formulation == RB_STEADY || scales || refined_at_rest || refined) && !paper &&
-        !(strong && many && !scales) && rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
-        !c->resolved.worn_file && rc->period == 0.0)
-        rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
-                                                                              : RB_MESH_ALIGNED;
-    if (!rb_case_given(c, "contact-elements") &&
-        (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
-        rc->contact_elements = refined && rc->formulation == RB_STATIC                      ? 30
-                               : c->resolved.accuracy > ROUGH && rc->mesh == RB_MESH_FITTED ? 50
-                                                                                            : 100;
     /* Q = 0, which a shift does not say where all of a period sticks, nor on a smooth base */
     if (((rc->period > 0.0 && isnan(rc->approach)) ||
          (rc->formulation == RB_STATIC && rb_rolling_slides_on_base(rc))) &&
