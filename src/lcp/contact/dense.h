@@ -31,7 +31,7 @@ typedef enum { RB_LU_KEPT, RB_LU_NEW, RB_LU_WHOLE, RB_LU_KINDS } rb_contact_lu;
 /* The reduced problem of some zones, for several right-hand sides one after the other: what has
  * changed since the LU is eliminated once. */
 typedef struct rb_contact_elimination rb_contact_elimination;
-/* Borrows the problem and its factors.  RB_SINGULAR, RB_ENOMEM: *elimination is NULL. */
+/* Borrows the problem and its factors; end it in any case.  RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_contact_elimination_begin(const rb_contact_problem *problem, const int *zone,
                                        rb_contact_lu lu, rb_contact_reduced *r,
                                        rb_contact_elimination **elimination);

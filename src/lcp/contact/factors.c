@@ -306,17 +306,20 @@ void rb_contact_elimination_end(rb_contact_elimination *e)
     free(e);
 }
 
-/* Borders and LU for the zones. */
-static rb_status begin(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
-                       rb_contact_reduced *r, rb_contact_elimination *e)
+rb_status rb_contact_elimination_begin(const rb_contact_problem *p, const int *zone,
+                                       rb_contact_lu lu, rb_contact_reduced *r,
+                                       rb_contact_elimination **elimination)
 {
     rb_contact_factors *factors = ((rb_contact_dense *)p->op)->factors;
+    rb_contact_elimination *e = *elimination = calloc(1, sizeof *e);
+
+    if (!e)
+        return RB_ENOMEM;
     kept_lu *k = lu == RB_LU_WHOLE ? &e->none : &factors->kept[r->unknowns - 1];
     plan *pl = &e->plan;
     bordered *m = &e->m;
     /* All arrays at their largest: every kept unknown lapsed, every present one new. */
     const size_t size = (size_t)r->size + 1;
-
     e->p = p;
     e->k = k;
     pl->unknown = rb_arena_zeros(&e->memory, size, sizeof *pl->unknown);
@@ -357,20 +360,6 @@ static rb_status begin(const rb_contact_problem *p, const int *zone, rb_contact_
     return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, count, count, m->T, count, e->pivots) == 0
                ? RB_OK
                : RB_SINGULAR;
-}
-
-rb_status rb_contact_elimination_begin(const rb_contact_problem *p, const int *zone,
-                                       rb_contact_lu lu, rb_contact_reduced *r,
-                                       rb_contact_elimination **elimination)
-{
-    rb_contact_elimination *e = *elimination = calloc(1, sizeof *e);
-    const rb_status s = e ? begin(p, zone, lu, r, e) : RB_ENOMEM;
-
-    if (s != RB_OK) {
-        rb_contact_elimination_end(e);
-        *elimination = NULL;
-    }
-    return s;
 }
 
 void rb_contact_elimination_solve(rb_contact_elimination *e, rb_contact_reduced *r)
