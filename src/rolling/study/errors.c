@@ -215,7 +215,9 @@ static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_ro
     enum { SECOND = 2, LAST = 4 }; /* the first one errs by what it does not show beside it */
     double most = 0.0;
 
-    for (int i = 0; i < s->n && rb_rolling_couples(rc); i++)
+    if (!rb_rolling_couples(rc))
+        return 0.0;
+    for (int i = 0; i < s->n; i++)
         for (int side = -1; side <= 1; side += 2) {
             const int last = i - LAST * side, beyond = i + side;
             int sticks = last >= 0 && last < s->n && beyond >= 0 && beyond < s->n &&
