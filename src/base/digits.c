@@ -42,28 +42,47 @@ static const uint64_t powers_of_five[] = {1,
                                           7450580596923828125};
 enum { POWERS_OF_FIVE = sizeof powers_of_five / sizeof *powers_of_five };
 
+/* m 5^k, and 5^k, in the unit 2^(64 * limbs): without a limb they are exact, with one each is
+ * less than 1 below its value. */
+static void times_power_of_five(uint64_t m, int k, int limbs, wide *product, wide *five)
+{
+    const wide first = powers_of_five[limbs ? POWERS_OF_FIVE - 1 : k];
+    const wide second = powers_of_five[limbs ? k - POWERS_OF_FIVE + 1 : 0];
+    const wide p = (wide)m * first;
+
+    *product = limbs ? (p >> 64) * second + ((wide)(uint64_t)p * second >> 64) : p;
+    *five = limbs ? first * second >> 64 : first;
+}
+
+static wide distance(wide a, wide b)
+{
+    return a > b ? a - b : b - a;
+}
+
 /* Of x = m 2^e > 0, in integers: x 10^k = m 5^k 2^-s with k such that 17 digits are before the
- * point, so that each rounding and the distance from x are known exactly.  0: these integers are
- * too large, or the number below x is nearer than the one above. */
+ * point, so that each rounding and the distance from x are known exactly, or of small numbers to
+ * 1 of 2^64 parts.  0: these integers are too large, the number below x is nearer than the one
+ * above, or such a part decides. */
 static int decimal_of(double x, decimal *d)
 {
-    enum { FRACTION = 52, LEAST = 1075, MOST_DIGITS = 17 };
+    enum { FRACTION = 52, LEAST = 1075, MOST_DIGITS = 17, LIMB = 64 };
     static const uint64_t most = UINT64_C(100000000000000000);
     uint64_t bits;
 
     memcpy(&bits, &x, sizeof bits);
     const uint64_t one = UINT64_C(1) << FRACTION, m = (bits & (one - 1)) | one;
     const int e = (int)(bits >> FRACTION) - LEAST;
-    if (m == one || e < -FRACTION - 60 || e > 0)
+    if (m == one || e < -LEAST || e > 0)
         return 0;
     /* floor(log10(2^(e + 52))), or one more where m is larger */
     for (int ten = (int)floor((e + FRACTION) * 0.30102999566398120), again = 0; again < 2;
          again++, ten++) {
-        const int k = MOST_DIGITS - 1 - ten, s = -(e + k);
-        if (k < 0 || k >= POWERS_OF_FIVE || s < 1)
+        const int k = MOST_DIGITS - 1 - ten, limbs = k >= POWERS_OF_FIVE;
+        const int s = -(e + k) - limbs * LIMB;
+        if (k < 0 || k > 2 * (POWERS_OF_FIVE - 1) || s < 1)
             return 0;
-        const uint64_t five = powers_of_five[k];
-        const wide exact = (wide)m * five;
+        wide exact, five;
+        times_power_of_five(m, k, limbs, &exact, &five);
         const uint64_t whole = (uint64_t)(exact >> s);
         if (whole >= most)
             continue;
@@ -72,6 +91,8 @@ static int decimal_of(double x, decimal *d)
             const wide below = exact - ((wide)(q * unit) << s), half = ((wide)unit << s) >> 1;
             const int rises = below > half || (below == half && (q & 1));
             const wide off = rises ? ((wide)unit << s) - below : below;
+            if (limbs && (distance(below, half) <= 1 || distance(2 * off, five) <= 3))
+                return 0;
             /* it reads back within half of the distance to the next number, at just that if m is
              * even; 17 digits always do */
             if (unit > 1 && !(2 * off < five || (2 * off == five && !(m & 1))))
@@ -125,7 +146,9 @@ char *rb_number_text(double x, char text[RB_NUMBER_TEXT])
 {
     decimal d;
 
-    if (isfinite(x) && x != 0.0 && decimal_of(fabs(x), &d)) {
+    if (x == 0.0)
+        return strcpy(text, signbit(x) ? "-0" : "0");
+    if (isfinite(x) && decimal_of(fabs(x), &d)) {
         *text = '-';
         write_decimal(d, text + (x < 0.0));
         return text;
