@@ -1,6 +1,7 @@
 /* Given loads and forces up to full sliding, and the two solvers against each other. */
 #include "cases.h"
 #include "check.h"
+#include "lcp/friction/friction.h"
 #include "rolling/rolling.h"
 #include "numbers.h"
 #include "solved.h"
@@ -111,6 +112,41 @@ TEST(full_sliding_of_tilted_elements_is_checked)
     assert_true(rb_rolling_solve(&rc, &s, NULL) > 0);
     assert_true(s.residual > 1e-3);
     rb_rolling_solution_free(&s);
+}
+
+/* The friction of the one element in stick comes out of numbers as large as the pressure: below mu
+ * = 1e-8 a given force was rounding.  A cone solver, which has a creepage, leaves no stick at all.
+ */
+TEST(force_control_never_fails_where_friction_is_tiny)
+{
+    static const char *const bodies[] = {"support halfplane", "support halfplane similar",
+                                         "support halfplane young-b 2e5 poisson-b 0.28",
+                                         "support arc", "support hub young-b 2e5 radius-b 80"};
+    static const char *const solvers[] = {"newton", "lemke", "lemke lcp-form kwak"};
+    static const double mu[] = {1e-7, 1e-9, 1e-12, 1e-20, 1e-60};
+
+    srand(14);
+    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++)
+        for (size_t k = 0; k < sizeof mu / sizeof *mu; k++)
+            for (size_t m = 0; m < sizeof solvers / sizeof *solvers; m++) {
+                rb_rolling_case rc =
+                    rolling_case("%s load 500 contact-elements %d", bodies[b], 12 + rand() % 20);
+                set(&rc, "solver %s formulation %s mu %g force-ratio %g", solvers[m],
+                    rand() % 2 ? "steady" : "static", mu[k], between(-0.95, 0.95));
+                OWNED(rb_rolling_solution) s;
+                if (rb_rolling_solve(&rc, &s, &message) != RB_OK)
+                    fail_msg("%s, mu %g, %s: %s", bodies[b], mu[k], solvers[m], message.text);
+                CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "%s, mu %g, %s", bodies[b], mu[k],
+                          solvers[m]);
+                CHECK_MAX(s.residual, 1e-10, "%s, mu %g, %s", bodies[b], mu[k], solvers[m]);
+            }
+    rb_rolling_case rc = rolling_case("support hub load 500 mu 1e-14 force-ratio 0.5");
+    set(&rc, "contact-elements 15");
+    OWNED(rb_rolling_solution) s;
+    rc.contact.solver = RB_SOLVER_CONE;
+    rc.contact.cone_solver = rb_friction_cone_solver("nsgs-ac");
+    CHECK_OK(rb_rolling_solve(&rc, &s, &message));
+    CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "by a cone solver");
 }
 
 TEST(approach_control_finds_the_force_too_large)

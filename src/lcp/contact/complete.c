@@ -18,6 +18,24 @@ rb_status rb_contact_measure(const rb_contact_problem *problem, rb_contact_state
     return s;
 }
 
+void rb_contact_hold_slowest(const rb_contact_problem *p, const rb_contact_state *state, int *zone)
+{
+    int slowest = -1;
+    double least = INFINITY;
+
+    for (int i = 0; i < p->n; i++) {
+        const double speed = fabs(state->lambda[i] / p->e_T[i]);
+        if (zone[i] == RB_ZONE_STICK)
+            return;
+        if (zone[i] != RB_ZONE_SEPARATED && speed < least) {
+            least = speed;
+            slowest = i;
+        }
+    }
+    if (slowest >= 0)
+        zone[slowest] = RB_ZONE_STICK;
+}
+
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do. */
 rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
@@ -46,6 +64,8 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
         s = rb_contact_state_alloc(problem->n, &trial);
         if (s == RB_OK) {
             memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
+            if (problem->force_given && !problem->yield)
+                rb_contact_hold_slowest(problem, state, trial.zone);
             if (problem->yield) {
                 memcpy(trial.p, state->p, bytes);
                 memcpy(trial.q, state->q, bytes);
@@ -61,6 +81,8 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
             memcpy(state->p, trial.p, bytes);
             memcpy(state->q, trial.q, bytes);
             memcpy(state->plastic, trial.plastic, bytes);
+            if (!problem->yield)
+                memcpy(state->zone, trial.zone, (size_t)problem->n * sizeof(int));
             state->delta = trial.delta;
             state->xi = trial.xi;
             state->residual = trial.residual;

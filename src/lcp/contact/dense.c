@@ -12,6 +12,8 @@ enum { PASSES = 3, PASSES_SLIGHT = 8 };
 static const double SMALL = 1e-6, SMALL_SLIGHT = 1e-12;
 /* Of the tractions before delta and xi take part: three digits cancel. */
 static const double MOST_GROWTH = 1e3;
+/* Of the largest force that friction carries: what a given force may lack of itself. */
+static const double FORCE_LACKS = 1e-13;
 
 static void dense_free(rb_contact_operator *op)
 {
@@ -107,6 +109,9 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
             const double small = r->slight > 0 ? SMALL_SLIGHT : SMALL;
             converged = (r->changes == 0 && r->slight == 0 && r->growth < MOST_GROWTH) ||
                         (pass > 0 && change <= small * size);
+            /* A stick zone's friction comes out of numbers as large as the pressure, which leaves
+             * no digit of it where mu is small: the next pass has them. */
+            converged = converged && rb_contact_reduced_force_lacks(p, state, r) <= FORCE_LACKS;
             passes = r->slight > 0 ? PASSES_SLIGHT : PASSES;
             size = fmax(size, change);
         }

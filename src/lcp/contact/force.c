@@ -185,6 +185,7 @@ rb_status rb_contact_by_creepage(rb_contact_problem *problem, const rb_contact_o
                                  cblas_ddot(problem->n, row + n, 1, known.q, 1);
             *(force > problem->force ? &low : &high) = given.xi;
             rb_contact_copy_start(&known, state);
+            rb_contact_hold_slowest(problem, &known, state->zone);
             s = rb_contact_proven(rb_contact_by_newton(problem, options, 1, state), problem,
                                   options, state);
         }

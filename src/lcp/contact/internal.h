@@ -60,6 +60,9 @@ void rb_contact_reduced_clear(const rb_contact_problem *problem, const rb_contac
 /* Sets r->x to the residual of the equations at the unknowns of the state. */
 void rb_contact_reduced_right_side(const rb_contact_problem *problem, const rb_contact_state *state,
                                    rb_contact_reduced *r);
+/* What the given force lacks, as a part of its scale; 0: none is given. */
+double rb_contact_reduced_force_lacks(const rb_contact_problem *problem,
+                                      const rb_contact_state *state, const rb_contact_reduced *r);
 /* Adds r->x to the unknowns of the state.  RB_SINGULAR: it is not finite. */
 rb_status rb_contact_reduced_add(const rb_contact_problem *problem, const rb_contact_reduced *r,
                                  rb_contact_state *state);
@@ -162,6 +165,11 @@ rb_status rb_contact_end_newton(rb_contact_problem *problem, const rb_contact_op
 
 /* The scaled residual of the state.  RB_ENOMEM. */
 rb_status rb_contact_measure(const rb_contact_problem *problem, rb_contact_state *state);
+/* A given force fixes xi only while something sticks (4.6).  Where mu is so small that the friction
+ * of the one element in stick is rounding of what the pressures do to it, none of the n zones is
+ * stick: the element in contact that moves least, by lambda of the state, becomes it. */
+void rb_contact_hold_slowest(const rb_contact_problem *problem, const rb_contact_state *state,
+                             int *zone);
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do.  RB_ENOMEM. */
 rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact_state *state);

@@ -72,6 +72,15 @@ void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_redu
         state->xi = p->force_given ? 0.0 : p->xi;
 }
 
+double rb_contact_reduced_force_lacks(const rb_contact_problem *p, const rb_contact_state *state,
+                                      const rb_contact_reduced *r)
+{
+    return !r->force ? 0.0
+                     : fabs(p->force - cblas_ddot(p->n, r->control_N, 1, state->p, 1) -
+                            cblas_ddot(p->n, r->control_T, 1, state->q, 1)) /
+                           r->force_scale;
+}
+
 void rb_contact_reduced_right_side(const rb_contact_problem *p, const rb_contact_state *state,
                                    rb_contact_reduced *r)
 {
