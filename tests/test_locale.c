@@ -82,10 +82,10 @@ static void write_all(char *text, size_t size)
     CHECK_OK(rb_case_solve(c, NULL, NULL, &result, &message));
     const rb_rolling_solution *s = &result.solution;
     const rb_report_style style = {0};
-    CHECK_OK(rb_report_table(out, &c->rc, s, "rollbem", &style));
+    const rb_rolling_note_list notes = rb_case_find_notes(words, s);
+    CHECK_OK(rb_report_table(out, &c->rc, s, &notes, "rollbem", &style));
     json_t *inputs = rb_report_json_inputs(words);
     CHECK_OK(rb_report_json_write(out, inputs));
-    const rb_rolling_note_list notes = rb_rolling_find_notes(&c->rc, s);
     rb_report_notes(out, &notes, 0);
     assert_int_equal(fclose(out), 0);
 

@@ -79,7 +79,7 @@ TEST(table_reads_back_exactly)
 {
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
-    assert_int_equal(rb_report_table(file, NULL, &s, "rollbem", &bare), RB_OK);
+    assert_int_equal(rb_report_table(file, NULL, &s, NULL, "rollbem", &bare), RB_OK);
     rewind(file);
     char line[400];
     assert_non_null(fgets(line, sizeof line, file));
@@ -103,7 +103,7 @@ TEST(full_header_names_command_and_columns)
 {
     const rb_rolling_solution s = carter();
     FILE *file = tmpfile();
-    assert_int_equal(rb_report_table(file, NULL, &s, "rollbem --mu 0.3", &full), RB_OK);
+    assert_int_equal(rb_report_table(file, NULL, &s, NULL, "rollbem --mu 0.3", &full), RB_OK);
     char *text = content(file);
     assert_non_null(strstr(text, "# rollbem " RB_VERSION "\n# rollbem --mu 0.3\n"));
     assert_ptr_equal(strstr(text, "x_mm\th_mm\t"), text);
@@ -123,7 +123,7 @@ TEST(full_disc_is_told)
     FILE *file = fopen("/dev/full", "w");
     if (!file)
         skip();
-    assert_int_equal(rb_report_table(file, NULL, &s, "rollbem", &bare), RB_EWRITE);
+    assert_int_equal(rb_report_table(file, NULL, &s, NULL, "rollbem", &bare), RB_EWRITE);
     fclose(file);
 }
 
@@ -393,7 +393,7 @@ TEST(curves_say_what_has_no_derivatives)
                                             .without = k != 1};
         rb_fail(&curves.slopes[k].reason, RB_EINVAL, "reason %d", k);
     }
-    CHECK_OK(rb_report_curve_table(out, &curves, "curve", &style));
+    CHECK_OK(rb_report_curve_table(out, &curves, NULL, "curve", &style));
     fclose(out);
     assert_non_null(strstr(text, "# mu = 0.1: 1 of 2 points have no derivatives: reason 0\n"));
     assert_non_null(strstr(text, "# mu = 0.3: 1 of 2 points have no derivatives: reason 2\n"));
@@ -408,7 +408,7 @@ TEST(curves_say_what_has_no_derivatives)
     }
     out = fmemopen(text, sizeof text, "w");
     curves.n = 1;
-    CHECK_OK(rb_report_curve_table(out, &curves, "curve", &style));
+    CHECK_OK(rb_report_curve_table(out, &curves, NULL, "curve", &style));
     fclose(out);
     assert_non_null(strstr(text, "# 1 of 2 points have no derivatives: reason 0\n"));
 }
@@ -423,7 +423,8 @@ TEST(dimensionless_table)
     assert_non_null(file);
     s.half_width = 2.0; /* not 1, which divides nothing */
     assert_int_equal(
-        rb_report_table(file, &rc, &s, "rollbem", &(rb_report_style){.dimensionless = 1}), RB_OK);
+        rb_report_table(file, &rc, &s, NULL, "rollbem", &(rb_report_style){.dimensionless = 1}),
+        RB_OK);
     const char *text = content(file);
     assert_ptr_equal(strstr(text, "x/a\th/a\tgap/a\tp/p0\tq/(mu*p0)\tun/a\t"), text);
     assert_non_null(strstr(text, "# a = 2 mm, p0 = 100 MPa, mu = 0.35\n"));

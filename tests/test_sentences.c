@@ -405,6 +405,37 @@ TEST(studies_say_what_their_rows_would_say)
         strstr(json_string_value(json_array_get(said, last - 1)), "--young without --poisson"));
 }
 
+/* Each note on standard error stands in a # line of the table and in JSON's list too. */
+TEST(notes_go_through_every_door)
+{
+    static const char *const commands[] = {
+        HALF,
+        HALF "--derivatives approach",
+        "curve " HALF "--mu 0.1,0.3 --points 3",
+        "stress " HALF,
+        "wear " HALF "--mu 0.1 --wear-coefficient 1e-9 --slide 1 --wear-steps 1",
+        "crack " HALF "--mu 0 --crack-length 0.5 --crack-elements 4",
+    };
+    static const char note[] = "rollbem: note: ";
+    char said[sizeof err], line[400];
+
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
+        held_json *root = run_json(commands[k]);
+        const json_t *list = json_object_get(root, "notes");
+        size_t notes_said = 0;
+        assert_int_equal(rollbem(commands[k]), 0);
+        assert_non_null(strstr(err, "--young without --poisson"));
+        snprintf(said, sizeof said, "%s", err);
+        for (const char *at = strstr(said, note); at; at = strstr(at + 1, note), notes_said++) {
+            const char *text = at + strlen(note);
+            snprintf(line, sizeof line, "# note: %.*s\n", (int)strcspn(text, "\n"), text);
+            if (!strstr(out, line))
+                fail_msg("rollbem %s: the table lacks '%s'", commands[k], line);
+        }
+        assert_int_equal(json_array_size(list), notes_said);
+    }
+}
+
 TEST(each_bound_is_that_of_the_mesh)
 {
     check_sentences(BOUNDS, bounds, 64);

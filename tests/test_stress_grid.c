@@ -264,7 +264,7 @@ TEST(full_disc_is_told)
     FILE *full = fopen("/dev/full", "w");
     if (!full)
         skip();
-    assert_int_equal(rb_report_stress_table(full, &stress, "x", &style), RB_EWRITE);
+    assert_int_equal(rb_report_stress_table(full, &stress, NULL, "x", &style), RB_EWRITE);
     fclose(full);
     full = fopen("/dev/full", "w");
     assert_int_equal(rb_report_vtk(full, RB_REPORT_VTU, &stress), RB_EWRITE);

@@ -86,7 +86,7 @@ static rb_status tree_of(const char *name, const char *text, json_t **tree, rb_m
 
 typedef struct {
     const json_t *tree;
-    const rb_resolved_case *resolved;
+    const rb_case *words;
     const char *command;
     double residual; /* in the comments */
 } source;
@@ -94,11 +94,12 @@ typedef struct {
 static rb_status write_table(rb_certificate *c, void *context, json_t **again, rb_message *why)
 {
     const source *of = context;
+    const rb_resolved_case *resolved = rb_case_resolved(of->words);
     const rb_certificate_contact stored = {NULL, json_object_get(of->tree, "table"), NULL,
                                            of->residual};
-    const int is_aligned = of->resolved->rc.mesh == RB_MESH_ALIGNED;
+    const int is_aligned = resolved->rc.mesh == RB_MESH_ALIGNED;
     rb_case_result r = {.elements = 0};
-    rb_status s = rb_certificate_restore(c, of->resolved, &stored, &r, NULL, why);
+    rb_status s = rb_certificate_restore(c, resolved, &stored, &r, NULL, why);
 
     /* Equal elements that lie at the edges look like those that are used instead, of which a note
      * tells. */
@@ -106,7 +107,8 @@ static rb_status write_table(rb_certificate *c, void *context, json_t **again, r
         char *text = NULL;
         size_t size;
         FILE *lines = open_memstream(&text, &size);
-        s = lines ? rb_report_table(lines, &of->resolved->rc, &r.solution, of->command,
+        const rb_rolling_note_list notes = rb_case_find_notes(of->words, &r.solution);
+        s = lines ? rb_report_table(lines, &resolved->rc, &r.solution, &notes, of->command,
                                     &(rb_report_style){.format = RB_REPORT_TSV})
                   : RB_ENOMEM;
         if (lines && (fclose(lines) != 0 || !text)) /* success without a text: no memory */
@@ -159,7 +161,7 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
         s = tree_of(name, text, &tree, &reason);
     if (s == RB_OK) {
         snprintf(command, sizeof command, "rollbem%s", line);
-        source from = {tree, resolved, command, residual};
+        source from = {tree, words, command, residual};
         s = rb_certificate_compare(&c, tree, write_table, &from, &reason);
     }
     free(line);

@@ -114,11 +114,11 @@ cli_exit cli_case_refuse(const rb_case *c, const char *about, const char *format
 /* ---- Commands that solve one ------------------------------------------------------ */
 
 /* Those on the rows of a curve, or on the solution, and on the materials as they were given. */
-static rb_rolling_note_list notes_of(const cli_case_run *run)
+static rb_rolling_note_list find_notes(const cli_case_run *run)
 {
-    rb_rolling_note_list notes = run->notes      ? *run->notes
-                                 : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
-                                                 : (rb_rolling_note_list){.n = 0};
+    if (!run->of_rows)
+        return rb_case_find_notes(run->words, run->solution);
+    rb_rolling_note_list notes = *run->of_rows;
     rb_case_note_materials(run->words, &notes);
     return notes;
 }
@@ -129,10 +129,9 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     (void)why;
     if (run->o.style.format != RB_REPORT_JSON)
         return run->command->table(out, run);
-    const rb_rolling_note_list notes = notes_of(run);
     rb_report_document document = {.command = cli_command_line(),
                                    .words = run->words,
-                                   .notes = run->notes || run->solution ? &notes : NULL};
+                                   .notes = run->of_rows || run->solution ? run->notes : NULL};
     if (run->command->document)
         run->command->document(run, &document);
     json_t *root = rb_report_json_document(&document);
@@ -166,8 +165,7 @@ enum { LARGE_WINDOW = 30 }; /* lines */
 static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
-    const rb_rolling_note_list notes = notes_of(run);
-    rb_report_notes(out, &notes, cli_is_coloured(stderr));
+    rb_report_notes(out, run->notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
     /* in a small window the table needs the line more than what was typed just now */
     if (!isatty(STDERR_FILENO) || cli_terminal_height() >= LARGE_WINDOW)
@@ -275,6 +273,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         if (!run.o.quiet)
             cli_wait_end();
         if (run.printable) {
+            const rb_rolling_note_list notes = find_notes(&run);
+            run.notes = &notes;
             /* a person reads the notes first */
             const int first = !run.o.output && cli_reader_is_person();
             cli_page_begin();

@@ -67,7 +67,8 @@ typedef struct {
     cli_output o;
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
-    const rb_rolling_note_list *notes;   /* on the rows of a curve; NULL: on the solution */
+    const rb_rolling_note_list *of_rows; /* notes on the rows of a curve; NULL: on the solution */
+    const rb_rolling_note_list *notes;   /* all notes, the same for standard error, tables, JSON */
     int printable;                       /* 1: there are results, if not all that were asked for */
     int incomplete;                      /* 1: not all of them, although nothing has failed */
 } cli_case_run;

@@ -91,8 +91,8 @@ static void fill_in(const cli_case_run *run, rb_report_document *d)
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    return rb_report_crack_table(out, &((const crack_run *)run->own)->result, cli_command_line(),
-                                 &run->o.style);
+    return rb_report_crack_table(out, &((const crack_run *)run->own)->result, run->notes,
+                                 cli_command_line(), &run->o.style);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)

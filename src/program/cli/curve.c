@@ -17,7 +17,8 @@ typedef struct {
 typedef struct {
     range_options range;
     rb_report_curves curves;
-    rb_report_curves drawn; /* as many where the picture has its own */
+    rb_report_curves drawn;     /* as many where the picture has its own */
+    rb_rolling_note_list notes; /* on the points of all curves */
 } curve;
 
 enum { FROM = 1, TO = 2 }; /* places in the table */
@@ -109,7 +110,6 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     const rb_numbers one = {1, {c->rc.mu}};
     const rb_numbers *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
-    rb_rolling_study_notes found = {.rows = 0};
     rb_status s = RB_OK;
     all.units = c->units;
     for (int k = 0; k < mus->n && s >= 0 && (s == RB_OK || curves->curve[k - 1].unsolved > 0);
@@ -129,8 +129,6 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         else
             s = rb_rolling_curve_solve(&rc, &all, &curves->curve[k], &reason);
         curves->n += s >= 0;
-        if (s >= 0)
-            rb_rolling_join_study_notes(&found, &curves->curve[k].notes);
         if (s != RB_OK && mus->n > 1 && before == RB_OK)
             rb_fail(why, s, "mu = %g: %.480s", rc.mu, rb_status_reason(s, &reason));
         else if (s != RB_OK && (before == RB_OK || s < 0))
@@ -139,7 +137,6 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     }
     curves->has_errors = c->error && s == RB_OK; /* an unfinished curve has none */
     curves->rc = &c->rc;
-    curves->notes = rb_rolling_list_study_notes(&found, "point");
     return s;
 }
 
@@ -150,6 +147,15 @@ static void convert(rb_report_curves *curves, rb_units units)
         rb_rolling_curve_convert(&curves->error[k], units);
         rb_case_slopes_convert(&curves->slopes[k], units);
     }
+}
+
+static rb_rolling_note_list notes_on_points(const rb_report_curves *curves)
+{
+    rb_rolling_study_notes found = {.rows = 0};
+
+    for (int k = 0; k < curves->n; k++)
+        rb_rolling_join_study_notes(&found, &curves->curve[k].notes);
+    return rb_rolling_list_study_notes(&found, "point");
 }
 
 static void free_curves(rb_report_curves *curves)
@@ -185,7 +191,8 @@ static rb_status solve_all_curves(cli_case_run *run, rb_message *why)
     }
     convert(&r->curves, run->c->units);
     const int k = r->curves.n - 1;
-    run->notes = &r->curves.notes;
+    r->notes = notes_on_points(&r->curves);
+    run->of_rows = &r->notes;
     if (k >= 0 && r->curves.curve[k].last.n > 0)
         run->solution = &r->curves.curve[k].last; /* cited */
     convert(&r->drawn, run->c->units);
@@ -212,8 +219,8 @@ static void add_json(const cli_case_run *run, json_t **root)
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    return rb_report_curve_table(out, &((const curve *)run->own)->curves, cli_command_line(),
-                                 &run->o.style);
+    return rb_report_curve_table(out, &((const curve *)run->own)->curves, run->notes,
+                                 cli_command_line(), &run->o.style);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)

@@ -21,6 +21,7 @@ typedef struct {
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *solution;
+    const rb_rolling_note_list *notes;
     const rb_report_style *style;
 } snapshot;
 
@@ -28,7 +29,7 @@ static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
     (void)why;
     const snapshot *it = context;
-    return rb_report_table(out, it->rc, it->solution, cli_command_line(), it->style);
+    return rb_report_table(out, it->rc, it->solution, it->notes, cli_command_line(), it->style);
 }
 
 /* Owned by the caller; NULL: no memory. */
@@ -41,10 +42,10 @@ static char *name_snapshot(const char *folder, int step, const rb_report_style *
 }
 
 rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case *rc,
-                             const rb_rolling_solution *solution, const rb_report_style *style,
-                             rb_message *why)
+                             const rb_rolling_solution *solution, const rb_rolling_note_list *notes,
+                             const rb_report_style *style, rb_message *why)
 {
-    const snapshot it = {rc, solution, style};
+    const snapshot it = {rc, solution, notes, style};
     char *path = name_snapshot(folder, step, style);
     const rb_status s =
         path ? cli_write_to(path, write_table, &it, why) : rb_fail(why, RB_ENOMEM, "out of memory");
@@ -90,9 +91,11 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         rb_rolling_solution solution = {0};
         rb_status s = rb_rolling_model_solution(model, &solution, w->why);
         rb_rolling_solution_convert(&solution, w->units);
-        if (s == RB_OK)
-            s = cli_write_snapshot(asked->snapshots, step + 1, model->rc, &solution, &asked->style,
-                                   w->why);
+        if (s == RB_OK) {
+            const rb_rolling_note_list notes = rb_case_find_notes(asked->words, &solution);
+            s = cli_write_snapshot(asked->snapshots, step + 1, model->rc, &solution, &notes,
+                                   &asked->style, w->why);
+        }
         w->written = step + 1;
         rb_rolling_solution_free(&solution);
         w->failed = s;

@@ -131,14 +131,15 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
     if (it->derivatives && it->slopes_of_steps.n > 0)
-        return rb_report_step_slopes(out, &it->r.history, &it->slopes_of_steps, cli_command_line(),
-                                     &run->o.style);
+        return rb_report_step_slopes(out, &it->r.history, &it->slopes_of_steps, run->notes,
+                                     cli_command_line(), &run->o.style);
     if (it->derivatives && !run->o.output && cli_reader_is_person())
         return rb_report_brief_derivatives(out, run->solution, &it->shown);
     if (it->derivatives)
-        return rb_report_derivative_table(out, run->solution, &it->shown, cli_command_line(),
-                                          &run->o.style);
-    return rb_report_table(out, &run->c->rc, run->solution, cli_command_line(), &run->o.style);
+        return rb_report_derivative_table(out, run->solution, &it->shown, run->notes,
+                                          cli_command_line(), &run->o.style);
+    return rb_report_table(out, &run->c->rc, run->solution, run->notes, cli_command_line(),
+                           &run->o.style);
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
@@ -239,6 +240,7 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
         it->states || is_animated(it) || (steps && (it->derivatives || it->tolerance)) ? &it->kept
                                                                                        : NULL;
     it->steps.proof = it->prove ? &it->proof : NULL;
+    it->steps.words = run->words;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->prove && !steps)
         s = rb_rolling_model_prove(&it->r.model, &it->proof, why);

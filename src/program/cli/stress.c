@@ -426,6 +426,8 @@ static int shows_column(const cli_case_run *run)
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const stress *st = run->own;
+    /* tractions that are given are no solution of the case */
+    const rb_rolling_note_list *said = st->tractions ? NULL : run->notes;
     if (shows_column(run)) {
         rb_report_stress below = st->table;
         rb_rolling_stress *at = calloc((size_t)below.ny, sizeof *at);
@@ -441,12 +443,12 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
         below.at = at;
         below.inside = inside;
         if (s == RB_OK)
-            s = rb_report_stress_table(out, &below, cli_command_line(), &run->o.style);
+            s = rb_report_stress_table(out, &below, said, cli_command_line(), &run->o.style);
         free(inside);
         free(at);
         return s;
     }
-    return rb_report_stress_table(out, &st->table, cli_command_line(), &run->o.style);
+    return rb_report_stress_table(out, &st->table, said, cli_command_line(), &run->o.style);
 }
 
 static rb_status write_vtk(FILE *out, const void *context, rb_message *why)

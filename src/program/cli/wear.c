@@ -67,7 +67,7 @@ static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, 
     wear *w = run->own;
     rb_rolling_solution_convert(s, run->c->units);
     if (w->snapshots && (step % w->every == 0 || step == steps))
-        w->failed = cli_write_snapshot(w->snapshots, step, NULL, s, &run->o.style, &w->why);
+        w->failed = cli_write_snapshot(w->snapshots, step, NULL, s, NULL, &run->o.style, &w->why);
     if (w->failed == RB_OK)
         w->failed = rb_report_wear_keep(&w->report, s, h, step, steps);
     return cli_interrupted() || w->failed != RB_OK;
@@ -120,7 +120,7 @@ static void add_json(const cli_case_run *run, json_t **root)
 static rb_status write_table(FILE *out, const cli_case_run *run)
 {
     const wear *w = run->own;
-    return rb_report_wear_table(out, &w->report, cli_command_line(), &run->o.style);
+    return rb_report_wear_table(out, &w->report, run->notes, cli_command_line(), &run->o.style);
 }
 
 static rb_status write_profile(FILE *out, const void *context, rb_message *why)

@@ -35,13 +35,17 @@ static double length_of(const rb_case_crack_result *r)
 }
 
 /* A crack that grows: its lengths; otherwise the positions of the contact. */
-rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
+                                const rb_rolling_note_list *notes, const char *command,
                                 const rb_report_style *style)
 {
     const int grows = r->growth.n > 0;
     const rb_report_columns columns = grows ? growth_columns_of(r) : columns_of(r);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
     rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    if (noted != RB_OK)
+        return noted;
     for (int k = 0; k < r->notes; k++)
         rb_report_comment(&c, "note: %s", r->note[k]);
     return rb_report_end_columns(&c, grows ? r->growth.n : r->history.n, 1, &columns);
@@ -341,7 +345,7 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
 
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    return rb_report_crack_table(out, of, "", style);
+    return rb_report_crack_table(out, of, NULL, "", style);
 }
 
 static void let_title(FILE *out, const view *v)

@@ -24,11 +24,13 @@ static double reference_mu(const rb_rolling_case *rc, double mu)
     return rb_rolling_largest_mu(&of_curve);
 }
 
-rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
+                                const rb_rolling_note_list *notes, const char *command,
                                 const rb_report_style *style)
 {
     rb_report_cells c = rb_report_cells_begin(out, style, "");
-    for (int k = 0; k < curves->n; k++) {
+    rb_status s = RB_OK;
+    for (int k = 0; k < curves->n && s == RB_OK; k++) {
         /* The coefficient of friction stands before the columns of its curve. */
         const double mu = reference_mu(curves->rc, curves->mu[k]);
         const rb_rolling_curve *d = curves->curve[k].deviations;
@@ -46,7 +48,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
             if (mu != curves->mu[k])
                 rb_report_comment(&c, "mu: of the law at rest, mu(0), which force_ratio refers to");
-            rb_report_comment_notes(&c, &curves->notes);
+            s = rb_report_comment_notes(&c, notes);
         }
         for (int i = 0; i < curves->curve[k].n; i++) {
             rb_report_cell_number(&c, mu);
@@ -55,7 +57,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cells_end_row(&c);
         }
     }
-    return rb_report_flush(out);
+    return s == RB_OK ? rb_report_flush(out) : s;
 }
 
 void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
@@ -391,7 +393,7 @@ static int comes_back_otherwise(const view *v)
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
     const view *v = of;
-    return rb_report_curve_table(out, v->curves, "", style);
+    return rb_report_curve_table(out, v->curves, NULL, "", style);
 }
 
 /* A list of a number for each curve. */

@@ -234,7 +234,8 @@ static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative 
 }
 
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
-                                     const rb_report_derivatives *d, const char *command,
+                                     const rb_report_derivatives *d,
+                                     const rb_rolling_note_list *notes, const char *command,
                                      const rb_report_style *style)
 {
     rb_report_cells c =
@@ -253,6 +254,9 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     for (int k = 0; k < d->n && d->named; k++)
         if (!has_result(d, k))
             rb_report_comment(&c, "none of %s: %s", d->result[k]->name, nothing);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    if (noted != RB_OK)
+        return noted;
     for (int k = 0; k < d->n; k++)
         for (int e = 0; has_result(d, k) && e < (d->is_column[k] ? s->n : 1); e++) {
             const int entry = d->is_column[k] ? e : -1;
@@ -348,7 +352,8 @@ void rb_report_comment_slopes(const rb_report_cells *c, int n, const rb_case_slo
 }
 
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
-                                const char *command, const rb_report_style *style)
+                                const rb_rolling_note_list *notes, const char *command,
+                                const rb_report_style *style)
 {
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
@@ -358,6 +363,9 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, command);
     rb_report_comment_slopes(&c, 1, s, NULL);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    if (noted != RB_OK)
+        return noted;
     for (int row = 0; row < s->rows; row++) {
         rb_report_cell_whole(&c, row + 1);
         rb_report_cell_number(&c, h->distance[row]);

@@ -17,7 +17,7 @@ typedef struct {
 
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    return rb_report_table(out, NULL, of, "", style);
+    return rb_report_table(out, NULL, of, NULL, "", style);
 }
 
 static int is_shown(const view *v, int i)

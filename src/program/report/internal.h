@@ -62,8 +62,8 @@ void rb_report_comment_scales(const rb_report_cells *c, const rb_report_columns 
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
 /* A note as a line of text, its first word in colour. */
 void rb_report_note(FILE *out, const char *text, int colour);
-/* Writes the notes as # lines. */
-void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes);
+/* Writes the notes as # lines.  notes: may be NULL; RB_ENOMEM: they are not complete. */
+rb_status rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes);
 /* Rows of entries, to the end of the table.  RB_EWRITE: see errno. */
 rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
                                 const rb_report_columns *part);

@@ -17,10 +17,11 @@ void rb_report_notes(FILE *out, const rb_rolling_note_list *notes, int colour)
         rb_report_note(out, rb_rolling_notes_missing, colour);
 }
 
-void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes)
+rb_status rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes)
 {
-    for (int k = 0; k < notes->n; k++)
+    for (int k = 0; notes && k < notes->n; k++)
         rb_report_comment(c, "note: %s", notes->text[k]);
+    return notes ? notes->status : RB_OK;
 }
 
 json_t *rb_report_json_notes(const rb_rolling_note_list *notes)

@@ -286,7 +286,7 @@ static void write_names(FILE *out, const view *v)
 
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    return rb_report_table(out, NULL, of, "", style);
+    return rb_report_table(out, NULL, of, NULL, "", style);
 }
 
 static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)

@@ -88,9 +88,10 @@ int rb_report_has_scales(const rb_rolling_solution *s);
 /* ---- Table ------------------------------------------------------------------------ */
 
 /* One row per contact element; # lines with version, command, conventions, status,
- * residual, and the notes for rc (NULL: no notes).  RB_EWRITE: see errno. */
+ * residual, and the notes (NULL: none).  rc: for dimensionless tables.  RB_EWRITE: see errno. */
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                          const char *command, const rb_report_style *style);
+                          const rb_rolling_note_list *notes, const char *command,
+                          const rb_report_style *style);
 
 /* The steps of a transient or a static history, one row each; error bars, if any, are in
  * additional columns error_*. */
@@ -244,7 +245,8 @@ typedef struct {
     rb_report_wear_profile profile[RB_REPORT_WEAR_PROFILES];
 } rb_report_wear;
 
-rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
+rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w,
+                               const rb_rolling_note_list *notes, const char *command,
                                const rb_report_style *style);
 struct json_t *rb_report_json_wear(const rb_report_wear *w);
 void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
@@ -259,7 +261,8 @@ void rb_report_wear_free(rb_report_wear *w);
 /* ---- Cracks ------------------------------------------------------------------------ */
 
 /* One row per position of the contact, all passes.  RB_EWRITE: see errno. */
-rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r,
+                                const rb_rolling_note_list *notes, const char *command,
                                 const rb_report_style *style);
 /* Sets "crack", "contact", "summary", "table", and adds to "notes". */
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
@@ -290,13 +293,13 @@ typedef struct {
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
     const rb_rolling_case *rc;                /* of the curves */
-    rb_rolling_note_list notes;               /* on the points of all curves */
     rb_case_slopes slopes[RB_REPORT_CURVES];  /* derivatives of each point; n = 0: not computed */
 } rb_report_curves;
 
 /* One row per mu and creepage; errors are in additional columns.  RB_EWRITE: see
  * errno. */
-rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
+                                const rb_rolling_note_list *notes, const char *command,
                                 const rb_report_style *style);
 /* Sets "curve" to the curve of the first mu and, if there are several, "curves" to
  * all. */
@@ -336,7 +339,8 @@ void rb_report_stress_take(rb_report_stress *s, const rb_rolling_traction_rows *
                            const rb_rolling_model *model);
 
 /* One row per point; the maxima are in the header.  RB_EWRITE: see errno. */
-rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress, const char *command,
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
+                                 const rb_rolling_note_list *notes, const char *command,
                                  const rb_report_style *style);
 /* Sets "depth", "maxima", and "grid" or "points". */
 void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress);
@@ -494,7 +498,8 @@ void rb_report_json_uncertain_text(struct json_t **root, const char *text);
 /* One row per result and input; the inputs of each result are ordered by the effect of
  * one per cent of the input. */
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
-                                     const rb_report_derivatives *d, const char *command,
+                                     const rb_report_derivatives *d,
+                                     const rb_rolling_note_list *notes, const char *command,
                                      const rb_report_style *style);
 /* A short version on a terminal: the first rows of each result. */
 rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
@@ -503,7 +508,8 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_repo
 
 /* The table of a history with derivatives: a row per step. */
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
-                                const char *command, const rb_report_style *style);
+                                const rb_rolling_note_list *notes, const char *command,
+                                const rb_report_style *style);
 /* derivatives: {result: {input: numbers, or where the two sides differ [left, right]}},
  * an entry per row; derivatives_note: rb_case_slopes_note. */
 void rb_report_json_slopes(struct json_t **owner, const rb_case_slopes *s);

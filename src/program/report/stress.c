@@ -176,7 +176,8 @@ static rb_report_columns columns_of(const rb_report_stress *s)
                                .rc = s->rc};
 }
 
-rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
+                                 const rb_rolling_note_list *notes, const char *command,
                                  const rb_report_style *style)
 {
     const rb_report_scales by = rb_report_scales_of(s->rc, s->s);
@@ -186,12 +187,9 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
     rb_report_comment_scales(&c, &columns);
 
-    if (!s->tractions) {
-        const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
-        if (notes.status != RB_OK)
-            return notes.status;
-        rb_report_comment_notes(&c, &notes);
-    }
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    if (noted != RB_OK)
+        return noted;
     for (int k = 0; k < GIVEN_LINES; k++)
         if (given_text(s, k, line, sizeof line))
             rb_report_comment(&c, "%s", line);

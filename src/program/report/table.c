@@ -3,7 +3,8 @@
 #include "rolling/case/case.h"
 
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                          const char *command, const rb_report_style *style)
+                          const rb_rolling_note_list *notes, const char *command,
+                          const rb_report_style *style)
 {
     const rb_report_scales by =
         style->dimensionless ? rb_report_scales_of(rc, s) : (rb_report_scales){.mu = 0.0};
@@ -22,11 +23,6 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
                           s->patch[k].max_pressure, rb_unit_name(s->units, "MPa"),
                           s->patch[k].normal_load, s->patch[k].tangential_load,
                           rb_unit_name(s->units, "N/mm"));
-    if (rc) {
-        const rb_rolling_note_list notes = rb_rolling_find_notes(rc, s);
-        if (notes.status != RB_OK)
-            return notes.status;
-        rb_report_comment_notes(&c, &notes);
-    }
-    return rb_report_end_columns(&c, s->n, 1, &columns);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    return noted == RB_OK ? rb_report_end_columns(&c, s->n, 1, &columns) : noted;
 }

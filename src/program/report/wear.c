@@ -39,7 +39,8 @@ static wear_words words_of(const rb_rolling_wear_history *h)
     return words;
 }
 
-rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
+rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w,
+                               const rb_rolling_note_list *notes, const char *command,
                                const rb_report_style *style)
 {
     rb_report_columns part[2];
@@ -53,7 +54,8 @@ rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *c
                           "stroke: long, the wear is that of %d places along it; approach, "
                           "contact and p0 belong to its middle",
                           w->history->positions);
-    return rb_report_end_columns(&c, w->history->n, parts, part);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    return noted == RB_OK ? rb_report_end_columns(&c, w->history->n, parts, part) : noted;
 }
 
 json_t *rb_report_json_wear(const rb_report_wear *w)
@@ -152,7 +154,7 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    return rb_report_wear_table(out, of, "", style);
+    return rb_report_wear_table(out, of, NULL, "", style);
 }
 
 static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)

@@ -113,6 +113,16 @@ void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes)
     }
 }
 
+rb_rolling_note_list rb_case_find_notes(const rb_case *c, const rb_rolling_solution *s)
+{
+    rb_rolling_note_list notes = {.n = 0};
+
+    if (s)
+        notes = rb_rolling_find_notes(&c->resolved.rc, s);
+    rb_case_note_materials(c, &notes);
+    return notes;
+}
+
 void rb_case_confirm_materials(const rb_case *c, const char *said, rb_rolling_note_list *notes)
 {
     char *text = notes->text[notes->n < RB_ROLLING_NOTES ? notes->n : 0];
