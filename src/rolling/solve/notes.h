@@ -5,7 +5,7 @@
 #include "rolling/case/inputs.h"
 
 /* Notes on results that must be read with care, one line each, every one of which the state
- * as solved bears out (src/rolling/solve/notes.c). */
+ * as solved bears out (src/rolling/solve/notes_on_*.c). */
 enum { RB_ROLLING_NOTES = 55, RB_ROLLING_NOTE_LENGTH = 320 };
 
 /* The notes on all rows: how many have a note of each kind, the first of them from 0, and what it
