@@ -126,51 +126,6 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
     return 1;
 }
 
-/* ---- Names of bonds ---------------------------------------------------------------- */
-
-static const char FIRST_BOND[] = "bond_1_";
-
-const rb_rolling_result *rb_rolling_describe_maximum(int k, int part, int of_b,
-                                                     rb_rolling_maximum_result *described)
-{
-    const rb_rolling_results *own =
-                                 of_b ? &rb_rolling_maxima_b_scalars : &rb_rolling_maxima_scalars,
-                             *first = of_b ? &rb_rolling_bond_b_scalars : &rb_rolling_bond_scalars;
-    const int i = 3 * k + part, beyond = i - own->n, which = beyond / first->n + 1;
-    if (beyond < 0)
-        return &own->row[i];
-    const rb_rolling_result *r = &first->row[beyond % first->n];
-    const char *digit = strstr(r->meaning, "bond 1");
-    described->result = *r;
-    snprintf(described->name, sizeof described->name, "bond_%d_%s", which,
-             r->name + strlen(FIRST_BOND));
-    snprintf(described->meaning, sizeof described->meaning, "%.*s%.0d%s",
-             digit ? (int)(digit - r->meaning) + 5 : (int)strlen(r->meaning), r->meaning,
-             digit ? which : 0, digit ? digit + 6 : "");
-    described->result.name = described->name;
-    described->result.meaning = described->meaning;
-    return &described->result;
-}
-
-int rb_rolling_find_bond_number(const char *name, int *k, int *part, int *of_b)
-{
-    int which, used = 0;
-    if (sscanf(name, "bond_%d_%n", &which, &used) != 1 || !used || which < 1 || which > 1000000)
-        return 0;
-    for (*of_b = 0; *of_b < 2; ++*of_b) {
-        const rb_rolling_results *first =
-            *of_b ? &rb_rolling_bond_b_scalars : &rb_rolling_bond_scalars;
-        for (int i = 0; i < first->n; i++)
-            if (strcmp(first->row[i].name + strlen(FIRST_BOND), name + used) == 0) {
-                const int number = rb_rolling_maxima_scalars.n + (which - 1) * first->n + i;
-                *k = number / 3;
-                *part = number % 3;
-                return 1;
-            }
-    }
-    return 0;
-}
-
 /* ---- Owners ------------------------------------------------------------------------ */
 
 static rb_rolling_solution no_scalars(rb_status status)
