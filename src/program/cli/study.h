@@ -1,5 +1,5 @@
 /* A parameter study: what varies in it (study_vary.c), its results (study_results.c), its table
- * (sweep.c) and its pictures (study_picture.c). */
+ * (study_table.c) and the file that keeps it (study_output.c), its pictures (study_picture.c). */
 #ifndef ROLLBEM_CLI_STUDY_H
 #define ROLLBEM_CLI_STUDY_H
 
@@ -121,6 +121,34 @@ cli_exit cli_study_check(study *st);
 cli_exit cli_study_choose_results(study *st);
 /* What has to be computed of the stress for a result: bits RB_ROW_... */
 unsigned cli_study_stress_of(const study *st, const study_result *of);
+
+/* The table: the number of the case, what varies, the status, the results, derivatives, standard
+ * deviations. */
+int cli_study_columns(const study *st);
+const char *cli_study_column_name(const study *st, int j, char text[STUDY_HEADING]);
+/* The same of result j = 0, 1, ... alone; its value in the row of a case. */
+const char *cli_study_result_name(const study *st, int j, char text[STUDY_HEADING]);
+double cli_study_result_value(const study *st, int j, const rb_rolling_row *row);
+/* The line of headings and the # lines below it: so many, of which one is the command line. */
+enum { STUDY_HEAD_LINES = 5, STUDY_COMMAND_LINE = 2 };
+void cli_study_write_head(const study *st, FILE *out);
+/* The first case of a kind of notes has its line in the table before it. */
+void cli_study_write_notes(study *st, int k, const rb_rolling_row_notes *said);
+/* row: in the units of the study. */
+void cli_study_write_row(study *st, int k, const rb_rolling_row *row);
+/* The exit code and the counts at the end, for the status of case k. */
+void cli_study_count(study *st, int k, rb_status status);
+/* 1: the line of a file is a note, or the row of case k as this study writes it, which is kept for
+ * the pictures and counted. */
+int cli_study_is_note(study *st, const char *line);
+int cli_study_is_row(study *st, int k, const char *line, size_t length);
+
+/* Opens standard output or the file, and reads the rows of this study that it has. */
+cli_exit cli_study_open(study *st);
+/* 1: all rows so far are in the file. */
+int cli_study_flush(study *st);
+/* What was not written whole is taken back.  Returns `code`, or why it could not be written. */
+cli_exit cli_study_close(study *st, cli_exit code);
 
 /* 1: --plot or --map. */
 int cli_study_has_pictures(const study *st);

@@ -5,14 +5,11 @@
 #include "program/cli/study.h"
 #include "program/report/report.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define PLACE(member) offsetof(study_options, member)
@@ -106,7 +103,7 @@ static const char notes[] = CLI_CASE_NOTES
     "           --vary-1 'crack-length 0.5:2:7' --vary-2 'crack-angle 20:70:11' \\\n"
     "           --map K.png --show K_II_max\n";
 
-/* ---- Rows -------------------------------------------------------------------------- */
+/* ---- Cases ------------------------------------------------------------------------- */
 
 /* Of every input and of the columns: tells whether a file holds rows of this study. */
 static cli_exit find_fingerprint(study *st)
@@ -130,187 +127,31 @@ static cli_exit find_fingerprint(study *st)
     return CLI_CONTINUE;
 }
 
-/* Columns: the number of the case, what varies, the status, the results, derivatives,
- * standard deviations. */
-static int column_count(const study *st)
+/* Means and deviations of a sample: of what has come in this run. */
+static void add_to_sample(study *st, const rb_rolling_row *row)
 {
-    return 1 + st->columns + 1 + st->results + st->slopes.n + st->slopes.deviations;
-}
-
-static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
-{
-    char heading[RB_ROLLING_HEADING];
-    const rb_units units = rb_case_resolved(st->base)->units;
-    const int slope = j - st->columns - 2 - st->results;
-    if (slope >= st->slopes.n) {
-        const rb_rolling_result *r = st->slopes.deviation[slope - st->slopes.n];
-        snprintf(text, STUDY_HEADING, "deviation_%s", rb_rolling_heading(r, units, heading));
-        return text;
+    for (int j = 0; j < st->results; j++) {
+        const double x = cli_study_result_value(st, j, row);
+        if (st->summed == 0)
+            st->first_result[j] = x;
+        st->sum[j] += x - st->first_result[j];
+        st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
     }
-    if (slope >= 0)
-        return rb_case_slope_heading(&st->slopes.of[slope], units, text);
-    if (j == 0)
-        return "case";
-    if (j <= st->columns)
-        return st->column[j - 1].heading;
-    if (j == st->columns + 1)
-        return "status";
-    const study_result *result = &st->result[j - st->columns - 2];
-    snprintf(text, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
-             rb_rolling_heading(result->r, units, heading));
-    return text;
-}
-
-/* row NULL: what is known before the case is solved. */
-static double cell_value(const study *st, int j, int k, const rb_rolling_row *row)
-{
-    if (j == 0)
-        return k + 1;
-    if (j <= st->columns)
-        return cli_study_value(st, &st->column[j - 1], k);
-    if (j == st->columns + 1)
-        return (double)row->solution.status;
-    const int slope = j - st->columns - 2 - st->results;
-    const rb_units units = rb_case_resolved(st->base)->units;
-    if (slope >= st->slopes.n) {
-        const rb_rolling_result *r = st->slopes.deviation[slope - st->slopes.n];
-        return rb_unit_shown(units, r->unit, row->own[slope]);
-    }
-    if (slope >= 0)
-        return rb_case_slope_shown(&st->slopes.of[slope], units, row->own[slope]);
-    const study_result *result = &st->result[j - st->columns - 2];
-    if (result->of == OF_CRACK)
-        return rb_unit_shown(units, result->r->unit,
-                             rb_case_crack_of_row(result->r, result->is_error, row));
-    if (result->of == OF_BOND)
-        return rb_unit_shown(units, result->r->unit,
-                             (result->is_error ? row->bond_error : row->bond)[result->bond]);
-    const rb_rolling_errors *e = &row->errors;
-    const void *const owners[2][3] = {{&row->solution, &row->stress, &row->stress_b},
-                                      {&e->scalar, &e->stress, &e->stress_b}};
-    const void *owner = owners[result->is_error != 0][result->of];
-    return rb_rolling_number(result->r, owner);
-}
-
-/* NULL: the cell has a number. */
-static const char *cell_word(const study *st, int j, int k)
-{
-    return j > 0 && j <= st->columns ? cli_study_word(st, &st->column[j - 1], k) : NULL;
-}
-
-enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
-
-static void write_head(const study *st, FILE *out)
-{
-    char heading[STUDY_HEADING];
-    rb_report_cells c = rb_report_cells_begin(out, &st->o->style, "");
-    for (int j = 0; j < column_count(st); j++)
-        rb_report_cell_text(&c, column_name(st, j, heading));
-    rb_report_cells_end_row(&c);
-    rb_report_comment_origin(&c, cli_command_line());
-    rb_report_comment(&c, "study %016" PRIx64 " of %d case%s%s%s", st->fingerprint, st->cases,
-                      rb_plural(st->cases),
-                      st->o->tolerance ? ", standard deviations of inputs: " : "",
-                      st->o->tolerance ? st->o->tolerance : "");
-    rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the friction "
-                          "on A points to -x, Q < 0");
-}
-
-/* A case that was not solved shows in the exit code. */
-static void count_status(study *st, int k, rb_status status)
-{
-    const int fails = st->o->sample > 0 && status == RB_EINVAL; /* no case */
-    const int code = fails ? CLI_UNSOLVED : cli_exit_of(status);
-    st->unsolved += status != RB_OK;
-    st->no_memory += status == RB_ENOMEM;
-    st->worst = code > st->worst ? code : st->worst;
-    if (status != RB_OK && status != RB_ENOMEM && !st->unsolved_case)
-        st->unsolved_case = k + 1;
-}
-
-/* The first case of a kind of notes has its line in the table before it, so that a study that
- * continues knows which kinds its file has. */
-static const char note_before[] = "note, case ";
-
-static const char *name_of_note(int kind, char text[24])
-{
-    const char *name = rb_rolling_note_name(kind);
-    const int of_material = kind >= RB_CASE_MATERIAL_NOTES;
-    snprintf(text, 24, "%s-%d", of_material ? "material" : "crack",
-             kind - (of_material ? (int)RB_CASE_MATERIAL_NOTES : (int)RB_ROLLING_OWN_NOTES) + 1);
-    return name ? name : text;
-}
-
-static void write_notes(study *st, int k, const rb_rolling_row_notes *said)
-{
-    const rb_report_cells c = {.out = st->out, .style = st->o->style};
-    char name[24];
-
-    for (int i = 0; i < said->n; i++) {
-        const uint64_t bit = UINT64_C(1) << said->kind[i];
-        if (!(st->noted & bit) && !st->list)
-            rb_report_comment(&c, "%s%d, %s: %s", note_before, k + 1,
-                              name_of_note(said->kind[i], name), said->text[i]);
-        st->noted |= bit;
-    }
-    rb_rolling_add_row_notes(&st->notes, k, said);
-}
-
-/* 1: the line is such a note, of a row that follows. */
-static int is_note(study *st, const char *line)
-{
-    char name[24];
-    int from = 0;
-
-    if (strncmp(line, "# ", 2) != 0 || strncmp(line + 2, note_before, strlen(note_before)) != 0 ||
-        sscanf(line + 2 + strlen(note_before), "%*d, %n", &from) != 0 || from == 0)
-        return 0;
-    line += 2 + strlen(note_before) + from;
-    for (int kind = 0; kind < RB_ROLLING_NOTES; kind++) {
-        const char *known = name_of_note(kind, name);
-        const size_t n = strlen(known);
-        if (strncmp(line, known, n) == 0 && line[n] == ':')
-            st->found |= UINT64_C(1) << kind;
-    }
-    return 1;
+    st->summed++;
 }
 
 static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     study *st = context;
-    rb_report_cells c = {.out = st->out, .style = st->o->style};
     rb_rolling_row shown = *row;
 
     rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
     rb_case_note_materials_of_row(st->base, &shown.notes); /* which are given is one for all */
-    write_notes(st, k, &shown.notes);
-    for (int j = 0; j < column_count(st); j++) {
-        const double x = cell_value(st, j, k, &shown);
-        const char *word = cell_word(st, j, k);
-        cli_study_keep(st, j, k, shown.solution.status == RB_OK ? x : NAN);
-        if (st->o->style.format == RB_REPORT_JSON)
-            st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
-                                              word ? rb_report_json_text(word)
-                                                   : rb_report_json_number(x)) != 0;
-        else if (word)
-            rb_report_cell_text(&c, word);
-        else
-            rb_report_cell_number(&c, x);
-    }
-    if (st->o->style.format != RB_REPORT_JSON)
-        rb_report_cells_end_row(&c);
-    /* Means and deviations of a sample: of what has come in this run. */
-    if (st->o->sample != 0 && shown.solution.status == RB_OK) {
-        for (int j = 0; j < st->results; j++) {
-            const double x = cell_value(st, st->columns + 2 + j, k, &shown);
-            if (st->summed == 0)
-                st->first_result[j] = x;
-            st->sum[j] += x - st->first_result[j];
-            st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
-        }
-        st->summed++;
-    }
-    count_status(st, k, row->solution.status);
+    cli_study_write_notes(st, k, &shown.notes);
+    cli_study_write_row(st, k, &shown);
+    if (st->o->sample != 0 && shown.solution.status == RB_OK)
+        add_to_sample(st, &shown);
+    cli_study_count(st, k, row->solution.status);
     return ferror(st->out);
 }
 
@@ -350,16 +191,6 @@ static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_messa
 
 /* ---- Progress ---------------------------------------------------------------------- */
 
-/* 1: all rows so far are in the file. */
-static int flush_rows(study *st)
-{
-    if (fflush(st->out) != 0)
-        return 0;
-    if (st->path)
-        st->whole = ftell(st->out);
-    return 1;
-}
-
 /* Rows reach the file at least twice a second.  Where nobody looks on, a line after ten
  * seconds and whenever these have doubled says how far the study is. */
 static int tick(int finished, void *context)
@@ -383,245 +214,7 @@ static int tick(int finished, void *context)
                 finished > 0 ? spent / finished * left : spent,
                 terminal && left > 0 ? "\033[K" : "\n");
     }
-    return !flush_rows(st);
-}
-
-/* ---- The output file --------------------------------------------------------------- */
-
-static cli_exit cannot_write(const char *path)
-{
-    return errno == ENOMEM ? cli_fail(CLI_INTERNAL, "%s: out of memory", path)
-                           : cli_fail(CLI_CANTWRITE, "%s: cannot write: %s", path, strerror(errno));
-}
-
-/* The number behind a tab at *at; 1: there is one, and *at stands behind it. */
-static int next_number(const char **at, double *value)
-{
-    char *end;
-    if (**at != '\t')
-        return 0;
-    *value = strtod(*at + 1, &end);
-    const int good = end > *at + 1;
-    *at = end;
-    return good;
-}
-
-/* The row of case k, as this study writes it: number and inputs to the digit, then its
- * status and as many numbers as there are results. */
-static int is_row(study *st, int k, const char *line, size_t length)
-{
-    char *wanted = NULL;
-    size_t size = 0;
-    double status = 0.0, value;
-    FILE *memory = open_memstream(&wanted, &size);
-    if (memory) {
-        /* Its first cells alone, as far as they are known before the case is solved. */
-        rb_report_cells c = {.out = memory, .style = st->o->style};
-        for (int j = 0; j <= st->columns; j++) {
-            if (cell_word(st, j, k))
-                rb_report_cell_text(&c, cell_word(st, j, k));
-            else
-                rb_report_cell_number(&c, cell_value(st, j, k, NULL));
-        }
-        fclose(memory);
-    }
-    int good = wanted && length == strlen(line) && strncmp(line, wanted, size) == 0;
-    const char *at = line + size;
-    free(wanted);
-    good = good && next_number(&at, &status);
-    for (int j = st->columns + 2; good && j < column_count(st); j++) {
-        good = next_number(&at, &value);
-        if (good)
-            cli_study_keep(st, j, k, status == RB_OK ? value : NAN);
-    }
-    if (good && *at == '\n')
-        count_status(st, k, (rb_status)status);
-    return good && *at == '\n';
-}
-
-/* Reads the rows that are there; what was cut at the end is written over. */
-static cli_exit resume(study *st)
-{
-    char *line = NULL, *head = NULL;
-    size_t capacity = 0, size;
-    ssize_t n;
-    cli_exit code = CLI_CONTINUE;
-    /* The head of this study, but for the command line, which may name another count of
-     * jobs. */
-    FILE *memory = open_memstream(&head, &size);
-    int same = memory != NULL;
-    if (memory) {
-        write_head(st, memory);
-        same = fclose(memory) == 0;
-    }
-    const char *wanted = head;
-    for (int k = 0; same && k < HEAD_LINES; k++) {
-        const size_t length = strcspn(wanted, "\n") + 1;
-        n = getline(&line, &capacity, st->out);
-        same =
-            k == COMMAND_LINE ? n > 0 : n == (ssize_t)length && memcmp(line, wanted, length) == 0;
-        wanted += length;
-    }
-    free(head);
-    if (!same)
-        code = cli_fail(CLI_CANTWRITE, "%s: has other contents; --restart would overwrite it",
-                        st->path);
-    st->whole = ftell(st->out);
-    while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
-           line[n - 1] == '\n') {
-        if (is_note(st, line))
-            continue;
-        if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
-            code = cli_fail(
-                CLI_CANTWRITE,
-                "%s:%d: not the row of case %d of this study; --restart would overwrite the file",
-                st->path, HEAD_LINES + st->first + 1, st->first + 1);
-        st->first++;
-        st->noted = st->found;
-        st->whole = ftell(st->out);
-    }
-    st->found = 0;
-    free(line);
-    if (code != CLI_CONTINUE)
-        st->path = NULL; /* it is another's: nothing of it is taken back */
-    if (code == CLI_CONTINUE &&
-        (ftruncate(fileno(st->out), st->whole) != 0 || fseek(st->out, st->whole, SEEK_SET) != 0))
-        code = cannot_write(st->path);
-    if (code == CLI_CONTINUE && !st->o->quiet && st->first > 0)
-        fprintf(stderr, "rollbem: %s holds %d of %d case%s\n", st->path, st->first, st->cases,
-                rb_plural(st->cases));
-    return code;
-}
-
-static cli_exit close_output(study *st, cli_exit code)
-{
-    if (st->w.file) {
-        rb_message why = {.text = ""};
-        rb_status s = RB_OK;
-        if (!st->complete || st->lost) {
-            rb_io_writer_abandon(&st->w);
-            return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
-        }
-        if (st->list) {
-            const rb_units units = rb_case_resolved(st->base)->units;
-            char heading[STUDY_HEADING];
-            json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
-            const rb_rolling_note_list said = rb_rolling_list_study_notes(&st->notes, "case");
-            rb_report_json_set(&root, "notes", rb_report_json_notes(&said));
-            for (int j = 0; j < column_count(st); j++)
-                rb_report_json_set(&table, column_name(st, j, heading),
-                                   json_incref(json_array_get(st->list, (size_t)j)));
-            rb_report_json_set(&root, "units", rb_report_json_units(units));
-            rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base)); /* first case */
-            if (st->o->tolerance)
-                rb_report_json_uncertain_text(&root, st->o->tolerance);
-            rb_report_json_set(&root, "table", table);
-            s = rb_report_json_write(st->out, root);
-        }
-        if (s == RB_OK)
-            s = rb_io_writer_commit(&st->w, &why);
-        else {
-            if (s == RB_EWRITE)
-                rb_fail(&why, s, "%s: cannot write: %s",
-                        st->o->output ? st->o->output : "standard output", strerror(errno));
-            const int e = errno;
-            rb_io_writer_abandon(&st->w);
-            errno = e;
-        }
-        if (s == RB_EWRITE && !st->o->output && errno == EPIPE)
-            return CLI_CANTWRITE; /* | head has seen enough */
-        return s == RB_OK ? code : cli_say(s, &why);
-    }
-    int failed = ferror(st->out) || !flush_rows(st), e = errno;
-    if (st->out != stdout && fclose(st->out) != 0 && !failed) {
-        failed = 1;
-        e = errno;
-    }
-    st->out = NULL;
-    if (st->text && !failed) {
-        failed = cli_show_table(st->text, 4) != RB_OK;
-        e = errno;
-    }
-    free(st->text);
-    st->text = NULL;
-    if (failed && st->path) {
-        /* What was not written whole is taken back: half a row, half a head. */
-        struct stat now;
-        if (st->created && st->whole == 0)
-            unlink(st->path);
-        else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
-            (void)!truncate(st->path, st->whole);
-    }
-    if (!failed || code == CLI_CANTWRITE || (!st->path && e == EPIPE))
-        return failed ? CLI_CANTWRITE : code;
-    errno = e;
-    return cannot_write(st->o->output ? st->o->output : "standard output");
-}
-
-static cli_exit open_output(study *st)
-{
-    struct stat old;
-    const char *path = st->o->output;
-    const int exists = path && stat(path, &old) == 0;
-
-    if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare) {
-        /* What cannot be resumed appears at the end, whole. */
-        rb_message why = {.text = ""};
-        const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
-        if (s != RB_OK)
-            return cli_say(s, &why);
-        st->out = st->w.file;
-        if (st->o->style.format == RB_REPORT_JSON) {
-            /* The lists that see_row fills. */
-            st->list = json_array();
-            for (int j = 0; j < column_count(st); j++)
-                rb_report_json_append(&st->list, json_array());
-            return st->list ? CLI_CONTINUE : cli_fail(CLI_INTERNAL, "out of memory");
-        }
-        write_head(st, st->out);
-        return CLI_CONTINUE;
-    }
-    st->out = stdout;
-    if (!path && cli_reader_is_person()) {
-        st->out = open_memstream(&st->text, &st->size);
-        if (!st->out)
-            return cli_fail(CLI_INTERNAL, "out of memory");
-        write_head(st, st->out);
-        return CLI_CONTINUE;
-    }
-    if (!path || strcmp(path, "-") == 0 || (exists && !S_ISREG(old.st_mode))) {
-        if (exists)
-            st->out = fopen(path, "w");
-        if (!st->out)
-            return cannot_write(path);
-        write_head(st, st->out);
-        return CLI_CONTINUE;
-    }
-    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    st->out = fd >= 0 ? fdopen(fd, "r+") : NULL;
-    if (!st->out) {
-        const cli_exit code = cannot_write(path);
-        if (fd >= 0)
-            close(fd);
-        return code;
-    }
-    st->path = path;
-    st->created = !exists;
-    /* Two processes on one file would mix their rows; some file systems have no locks. */
-    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    struct stat now;
-    cli_exit code = CLI_CONTINUE;
-    if (fcntl(fd, F_SETLK, &all) != 0 && (errno == EACCES || errno == EAGAIN))
-        code = cli_fail(CLI_CANTWRITE, "%s: another process is writing it", path);
-    else if (st->o->restart && ftruncate(fd, 0) != 0)
-        code = cannot_write(path);
-    else if (fstat(fd, &now) == 0 && now.st_size > 0)
-        code = resume(st);
-    else {
-        write_head(st, st->out);
-        code = flush_rows(st) ? CLI_CONTINUE : cannot_write(path);
-    }
-    return code == CLI_CONTINUE ? code : close_output(st, code);
+    return !cli_study_flush(st);
 }
 
 /* ---- Command ----------------------------------------------------------------------- */
@@ -665,7 +258,7 @@ static void print_summary(FILE *out, const void *context)
         const double rounding =
             rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc, r, st->first_result[j] + mean);
         if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
-            fprintf(out, "  %-28s %.6g +- %.2g\n", column_name(st, st->columns + 2 + j, heading),
+            fprintf(out, "  %-28s %.6g +- %.2g\n", cli_study_result_name(st, j, heading),
                     st->first_result[j] + mean, sqrt(variance));
     }
 }
@@ -682,7 +275,7 @@ static cli_exit run(study *st)
     cli_interrupts_leave();
     const double spent = rb_seconds() - st->start;
     if (s == RB_INTERRUPTED && ferror(st->out))
-        return CLI_OK; /* close_output says it */
+        return CLI_OK; /* cli_study_close says it */
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
                         st->path ? "; the same command continues from there" : "");
@@ -743,7 +336,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     if (code == CLI_CONTINUE)
         code = find_fingerprint(st);
     if (code == CLI_CONTINUE && !cli_pool_is_worker())
-        code = open_output(st);
+        code = cli_study_open(st);
     return code;
 }
 
@@ -786,7 +379,7 @@ int cli_sweep(int argc, char **argv)
         if (code == CLI_CONTINUE)
             code = run(&st);
         if (st.out)
-            code = close_output(&st, code);
+            code = cli_study_close(&st, code);
         if (st.complete)
             code = cli_study_draw(&st, code);
     }
