@@ -79,6 +79,33 @@ TEST(an_accuracy_that_no_mesh_has_is_refused_at_once)
     }
 }
 
+/* The pressure has a singularity, at which no mesh has the accuracy: where stick ends between
+ * unlike bodies under much friction, and under a stiff layer at rest whose stick is not resolved.
+ * That is said after few elements, with the result that lacks it. */
+TEST(an_accuracy_of_a_singular_pressure_is_given_up_soon)
+{
+    static const struct {
+        const char *options;
+        int most;
+    } row[] = {{"formulation steady mu 3 creep-ratio 0.4", 240},
+               {"formulation static mu 0.3 shift 1e-4 layer-thickness 0.05 base-young 10000 "
+                "base-poisson 0.1",
+                400}};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        OWNED(rb_rolling_solution) s;
+        rb_rolling_errors errors;
+        int elements;
+        set(&rc, "support halfplane half-width 0.5 mesh fitted contact-elements 100 %s",
+            row[k].options);
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 3e-3, &s, &errors, &elements, &message),
+                     RB_INACCURATE);
+        assert_true(elements >= 100 && elements <= row[k].most);
+        assert_non_null(strstr(message.text, " of max_pressure"));
+        assert_true(errors.scalar.max_pressure > 3e-3 * s.max_pressure);
+    }
+}
+
 /* Memory that is refused to a later round leaves the best solution so far. */
 TEST(a_later_round_that_fails_leaves_the_one_before)
 {

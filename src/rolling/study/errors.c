@@ -1,4 +1,5 @@
 /* Discretisation errors from coarser runs (theory-solvers.md 5.1). */
+#include "base/sizes.h"
 #include "rolling/body/body.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/check.h"
@@ -570,42 +571,77 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_sol
 /* Largest of the relative estimates that --accuracy asks for: forces in units of their
  * bound, creepage in units of itself, or of mu a/R where it is less.  The creepage of
  * free rolling, of wheels or of unlike bodies, does not vanish with mu: in units of mu
- * a/R alone no mesh would do for a small one. */
+ * a/R alone no mesh would do for a small one.  *of: the name of that result. */
 static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                             const rb_rolling_solution *e)
+                             const rb_rolling_solution *e, const char **of)
 {
+    const int slides = rb_rolling_largest_mu(rc) > 0.0;
     const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
-    double worst = fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
+    const struct {
+        const char *name;
+        double error;
+    } relative[] = {{"normal_load", e->normal_load / s->normal_load},
+                    {"max_pressure", e->max_pressure / s->max_pressure},
+                    {"half_width", e->half_width / s->half_width},
+                    {"force_ratio", slides ? e->force_ratio : 0.0},
+                    {"creepage", slides && rc->formulation != RB_STATIC
+                                     ? e->creepage / fmax(strain, fabs(s->creepage))
+                                     : 0.0}};
+    int worst = 0;
 
-    worst = fmax(worst, e->half_width / s->half_width);
-    if (rb_rolling_largest_mu(rc) > 0.0)
-        worst = fmax(worst, e->force_ratio);
-    if (rb_rolling_largest_mu(rc) > 0.0 && rc->formulation != RB_STATIC)
-        worst = fmax(worst, e->creepage / fmax(strain, fabs(s->creepage)));
-    return worst;
+    for (int k = 1; k < (int)(sizeof relative / sizeof *relative); k++)
+        if (relative[k].error > relative[worst].error || isnan(relative[worst].error))
+            worst = k;
+    *of = relative[worst].name;
+    return relative[worst].error;
+}
+
+/* Largest part of the error that the contact elements and the boundary have. */
+typedef struct {
+    int elements;
+    double contact, boundary;
+} estimate;
+
+/* The highest order at which the contact's part has fallen since the first round.  A bar can be
+ * too small by chance, and is no proof of a lower order: that of twice the first one.  INFINITY:
+ * the elements are as many as there. */
+static double order_of_rounds(const estimate *first, const estimate *now)
+{
+    return now->elements > first->elements ? log(2.0 * first->contact / now->contact) /
+                                                 log((double)now->elements / first->elements)
+                                           : INFINITY;
 }
 
 /* Makes the elements of the contact and those of the boundary finer: each until its part of
  * the error is what the other one leaves of the accuracy, half of it at least, and by at
  * most two because an error may fall faster than its order says.  That of fitted elements on flat
  * bodies hardly does, and many of them cost little: by at most four.  0: the limit of a part
- * is reached, or twice that would not do. */
-static int refine(double accuracy, double contact, double boundary, int fitted, rb_rolling_case *rc)
+ * is reached, or twice that would not do, or not the limit itself at the order of the rounds
+ * before: where the pressure is singular, as at the end of stick between unlike bodies, finer ones
+ * would take minutes and hardly be better. */
+static int refine(double accuracy, const estimate *first, const estimate *now, int fitted,
+                  rb_rolling_case *rc)
 {
     const int wheels = rb_rolling_error_runs(rc) > 2;
     const rb_rolling_mesh twice = {.n = 2 * rc->contact_elements};
-    const double most = wheels                               ? MOST_ON_WHEELS
+    const int strong = rc->mesh == RB_MESH_FITTED && rb_rolling_mu_beta(rc) >= 1.0;
+    const double most = strong                               ? RB_ROLLING_GRADED_STRONG_UP_TO
+                        : wheels                             ? MOST_ON_WHEELS
                         : rb_rolling_suits_large(rc, &twice) ? MOST_WITHOUT_MATRIX
                                                              : MOST_ELEMENTS;
     const double order = fitted ? 2.0 : 1.0, step = fitted && !wheels ? 4.0 : 2.0,
                  spare = wheels ? 1.1 : 1.2;
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
-    const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
-    const double for_boundary = fmax(0.5 * accuracy, accuracy - contact);
-    const double n_factor = fmax(1.0, pow(contact / for_contact, 1.0 / order));
-    const double outer_factor = fmax(1.0, sqrt(boundary / for_boundary));
+    const double for_contact = fmax(0.5 * accuracy, accuracy - now->boundary);
+    const double for_boundary = fmax(0.5 * accuracy, accuracy - now->contact);
+    const double excess = fmax(1.0, now->contact / for_contact);
+    const double n_factor = pow(excess, 1.0 / order);
+    const double outer_factor = fmax(1.0, sqrt(now->boundary / for_boundary));
+    const double seen = order_of_rounds(first, now);
 
     if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
+        return 0;
+    if (excess > 1.0 && !(seen > 0.0 && log(excess) < seen * log(most / n)))
         return 0;
     const double finer = fmin(most / n, fmin(step, n_factor > 1.0 ? spare * n_factor : 1.0));
     rc->contact_elements = (int)(finer * n + 0.5);
@@ -622,6 +658,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     rb_rolling_case refined = *rc;
     error_parts parts;
     double worst = INFINITY, before;
+    const char *of = "", *of_part; /* results that are the worst */
+    estimate first = {0}, now;
     int round = 0, stood = 0; /* rounds in which the bars did not fall */
     rb_status status = rb_rolling_error_check(rc, why);
     const int second_order = rb_rolling_mesh_is_graded(rc) ||
@@ -651,23 +689,25 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
             return status;
         add_parts(&parts, errors);
         before = worst;
-        worst = worst_relative(rc, solution, &errors->scalar);
+        worst = worst_relative(rc, solution, &errors->scalar, &of);
         stood = fabs(worst - before) < 0.05 * worst ? stood + 1 : 0;
         if (worst <= accuracy)
             return RB_OK;
-    } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
-                                 worst_relative(rc, solution, &parts.boundary.scalar),
-                                 second_order && !solution->equal_instead, &refined));
+        now = (estimate){*elements, worst_relative(rc, solution, &parts.contact.scalar, &of_part),
+                         worst_relative(rc, solution, &parts.boundary.scalar, &of_part)};
+        first = round == 1 ? now : first;
+    } while (stood < 2 &&
+             refine(accuracy, &first, &now, second_order && !solution->equal_instead, &refined));
     if (status == RB_ENOMEM || status == RB_EINVAL) /* more than the machine has is refused */
         return rb_fail(why, RB_ENOMEM,
                        "accuracy %g: out of memory beyond %d elements, whose estimated error is "
-                       "%.2g",
-                       accuracy, *elements, worst);
+                       "%.2g of %s",
+                       accuracy, *elements, worst, of);
     if (status == RB_OK)
         status = rb_fail(why, RB_INACCURATE,
                          "accuracy %g not reached with %d elements: estimated error "
-                         "%.2g%s",
-                         accuracy, *elements, worst,
+                         "%.2g of %s%s",
+                         accuracy, *elements, worst, of,
                          rc->mesh == RB_MESH_UNIFORM ? "; a fitted mesh needs fewer" : "");
     return status;
 }
