@@ -775,15 +775,18 @@ static int change_all_slopes(json_t *root, json_t *in, const char *name, double 
 TEST(every_changed_derivative_is_found)
 {
     static const char *const names[] = {"derivatives", "smooth_derivatives", "tolerances"};
-    int changes = 0;
+    int changes = 0, results = 0;
     for (size_t k = 0; k < sizeof slopes / sizeof *slopes; k++) {
+        if (!is_in_turn((int)k, 2))
+            continue;
+        results++;
         held_json *root = run_json(slopes[k]);
         json_t *history = json_object_get(root, "history"), *in = history ? history : root;
         expect_violations(root, 0);
         for (size_t j = 0; j < sizeof names / sizeof *names; j++)
             changes += change_all_slopes(root, in, names[j], 1e-4);
     }
-    assert_true(changes > 500);
+    assert_true(changes > 70 * results);
 }
 
 /* Numbers of the elements, texts, what derivatives do not belong to, a number that B has of its

@@ -404,6 +404,8 @@ TEST(short_cracks)
          "K_I_max", 4.0836}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         char line[400];
+        if (!is_in_turn((int)k, 2))
+            continue;
         snprintf(line, sizeof line,
                  "crack --similar --support halfplane --radius 1000 --half-width 1 "
                  "--crack-elements 20 --error %s",

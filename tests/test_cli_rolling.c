@@ -768,7 +768,7 @@ TEST(pictures_in_sizes)
         {"example truss --nodes 4", "plot", 361, 535},
         {"example bar", "plot", 361, 321}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
-        if (!is_in_turn((int)k, 3))
+        if (!is_in_turn((int)k, 5))
             continue;
         const struct {
             const char *name;
@@ -842,7 +842,7 @@ TEST(pictures_in_every_kind)
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++)
         for (int i = 0; i < KINDS; i++) {
             char line[500], name[20];
-            if (!is_in_turn((int)k, 3) || (i > 0 && !is_in_turn((int)k / 3 + i, KINDS - 1)))
+            if (!is_in_turn((int)k, 7) || (i > 0 && !is_in_turn((int)k / 7 + i, KINDS - 1)))
                 continue;
             snprintf(line, sizeof line, "%s.%s --output out.tsv", pictures[k], kinds[i].ending);
             snprintf(name, sizeof name, "a.%s", kinds[i].ending);

@@ -435,7 +435,7 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
     setenv("ASAN_OPTIONS", "detect_leaks=0", 1); /* it does not like to be followed */
     const int before = loader_calls(kind);
     for (int i = 0; i < JOBS; i++) {
-        if (!is_in_turn(i, 4))
+        if (!is_in_turn(i, JOBS))
             continue;
         make_reference(&jobs[i]);
         prepare(&jobs[i]);
@@ -565,7 +565,7 @@ TEST(every_call_that_allocates)
     const char *const *line = allocating;
     for (int part = 0; part < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); part++, line++)
         for (int i = 0; *line; line++, i++)
-            if (is_in_turn(i, 6))
+            if (is_in_turn(i, 12))
                 tried += fail_every_call(&(job){
                     .name = *line, .arguments = *line, .rows = strncmp(*line, "sweep ", 6) == 0});
     none_wrong(tried, "calls that allocate");

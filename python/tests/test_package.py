@@ -112,7 +112,7 @@ def test_long_runs_end_by_control_c(call):
     assert out == "ended\n" and worked < 5, f"{out!r}, {worked:.1f} s of work"
 
 
-@pytest.mark.parametrize("asked, call", [pytest.param(*calls, marks=in_turn(k, 3)) for k, calls in enumerate([
+@pytest.mark.parametrize("asked, call", [pytest.param(*calls, marks=in_turn(k, 7)) for k, calls in enumerate([
     ("rollbem.solve(support='halfplane', load=500., contact_elements=300, mesh='uniform', solver='newton')", "s.lcp()"),
     ("rollbem.solve(support='arc', contact_elements=20, outer_elements=1500)", "s.H"),
     ("rollbem.solve(support='hub', load=500., contact_elements=60)", "rollbem.stress(s, grid=(600, 600))"),

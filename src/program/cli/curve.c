@@ -303,9 +303,14 @@ static const cli_case_command command = {
 
 int cli_curve(int argc, char **argv)
 {
-    curve r = {.range.points = 61};
-    const cli_exit code = cli_case_run_command(&command, &r, argc, argv);
-    free_curves(&r.curves);
-    free_curves(&r.drawn);
+    /* a megabyte, of which most commands touch nothing: what describes itself comes here, too */
+    curve *r = calloc(1, sizeof *r);
+    if (!r)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    r->range.points = 61;
+    const cli_exit code = cli_case_run_command(&command, r, argc, argv);
+    free_curves(&r->curves);
+    free_curves(&r->drawn);
+    free(r);
     return code;
 }
