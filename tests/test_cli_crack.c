@@ -302,6 +302,53 @@ TEST(loads_of_every_kind)
     check_refused("crack --example layer", 65, "homogeneous and elastic only");
 }
 
+/* What means nothing is refused by its name, and so is what would have no digits: a crack of 1e5
+ * half-widths, whose elements are longer than the contact, had a K_II a third off. */
+TEST(what_means_nothing_is_refused)
+{
+    static const char *const refused[][2] = {
+        {"--history shift.txt --steps 4", "--steps: a contact at rest stays at --from"},
+        {"--half-width 1 --mu 0 --unloaded --remote-stress 5 --from 1", "--from: not together"},
+        {"--half-width 1 --mu 0 --unloaded --remote-stress 5 --to 1", "--to: not together"},
+        {"--half-width 1 --mu 0 --unloaded --remote-stress 5 --steps 9", "--steps: not together"},
+        {"--half-width 1 --mu 0 --unloaded --remote-stress 5 --passes 2", "--passes: nothing"},
+        {"--half-width 1 --mu 0 --grow-steps 3", "--grow-steps: of a crack that grows"},
+        {"--half-width 1 --mu 0 --paris-range mode-II", "--paris-range: of a crack that grows"},
+        {"--half-width 1 --mu 0 --crack-length 1e5", "--crack-length: 40 elements along a crack"},
+        {"--half-width 1 --mu 0 --crack-length 1e300", "--crack-length: expected a size"},
+        {"--half-width 1 --mu 0 --crack-depth 1e12", "--crack-depth: at 1e+12 half-widths"},
+        {"--half-width 1 --mu 0 --crack-mouth 1e17", "--crack-mouth: at 1e+17 half-widths"},
+        {"--half-width 1 --mu 0 --crack-friction 1e300", "--crack-friction: expected a size"},
+        {"--half-width 1 --mu 0 --remote-stress 1e300", "--remote-stress: expected a size"},
+        {"--half-width 1 --mu 0 --from -1e6", "--from: 120 steps of 8333.38 half-widths"},
+        {"--half-width 1 --mu 0 --to 1e300", "--to: expected a size"}};
+    char line[200];
+
+    write_file("shift.txt", "load shift\n20 0\n40 1e-4\n40 -1e-4\n");
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+        snprintf(line, sizeof line, "crack --similar --support halfplane %s", refused[k][0]);
+        check_refused(line, 64, refused[k][1]);
+    }
+}
+
+/* A long crack feels the contact as a point force: K_II grows with 1/sqrt(length). */
+TEST(a_long_crack_feels_a_point_force)
+{
+    double scaled[2];
+
+    for (int k = 0; k < 2; k++) {
+        char line[200];
+        snprintf(line, sizeof line,
+                 HERTZ "--mu 0 --crack-angle 90 --crack-friction 0 --crack-length %d "
+                       "--crack-elements %d --steps 24 --contact-elements 20",
+                 k ? 3000 : 300, k ? 160 : 80);
+        held_json *root = run_json(line);
+        scaled[k] = in_summary(root, "K_II_max") * sqrt(k ? 3000.0 : 300.0);
+        CHECK_MAX(-in_summary(root, "K_I_min"), 0.0, "K_I of %d", k);
+    }
+    CHECK_REL(scaled[1], scaled[0], 5e-3, "K_II sqrt(length)");
+}
+
 /* Under a stiff wheel K_II falls by a sixth, between similar bodies by less; where the
  * crack is far from the contact nothing changes. */
 TEST(coupled)

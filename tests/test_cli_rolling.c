@@ -18,6 +18,8 @@ static const struct {
     {"curve --points 1", 64, "--points: expected a whole number in [2, 1e+06]"},
     {"curve --over slip", 64, "--over: expected creep-ratio, creep or speed, got 'slip'"},
     {"curve --from 1 --to 1", 64, "--to: expected two different values"},
+    {"curve --from 1e308", 64, "--from: expected a size of 1e-100 to 1e+100"},
+    {"curve --to -1e200", 64, "--to: expected a size of 1e-100 to 1e+100"},
     {"curve --creep 0.1", 64, "--creep: a curve varies it from --from to --to"},
     {"curve --force 0", 64, "--force: a curve varies it"},
     {"curve --formulation static", 64, "--formulation: a curve needs steady rolling"},

@@ -94,7 +94,8 @@ void rb_crack_contact_read(const rb_crack *c, const rb_crack_contact *k, rb_crac
     state->open_length = state->stick_length = 0.0;
     for (int j = 0; j < n; j++) {
         const int i = k->m + j, zone = k->state.zone[i];
-        state->D[j] = zone == RB_ZONE_SEPARATED ? k->gap[i] / k->scale[i] : 0.0;
+        /* a gap below zero is within the solver's tolerance of none */
+        state->D[j] = zone == RB_ZONE_SEPARATED ? fmax(k->gap[i] / k->scale[i], 0.0) : 0.0;
         state->D[n + j] += k->slip[i] / k->scale[i];
         state->r[j] = k->state.p[i] * k->scale[i];
         state->r[n + j] = k->state.q[i] * k->scale[i];

@@ -74,6 +74,70 @@ rb_case_crack rb_case_crack_lengths(const rb_resolved_case *c, const rb_case_cra
     return l;
 }
 
+/* Numbers, not lengths: those have their unit first. */
+static rb_status check_sizes(const rb_case_crack *k, rb_message *why)
+{
+    const struct {
+        const char *what;
+        double value;
+    } sizes[] = {{"crack-friction", k->friction}, {"remote-stress", k->remote_stress}};
+    rb_status s = RB_OK;
+
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes && s == RB_OK; i++)
+        s = rb_rolling_check_size(sizes[i].what, sizes[i].value, why);
+    for (int i = 0; i < k->remote_stresses.n && s == RB_OK; i++)
+        s = rb_rolling_check_size("remote-stress", k->remote_stresses.value[i], why);
+    return s;
+}
+
+/* Places are differences of coordinates, which a crack that lies far away has no digits for. */
+static rb_status check_places(const rb_case_crack *l, double a, rb_message *why)
+{
+    static const double FARTHEST = 1e8;
+    const struct {
+        const char *what;
+        double value;
+    } places[] = {{"crack-length", l->length},
+                  {"crack-mouth", l->mouth},
+                  {"crack-depth", l->depth},
+                  {"from", l->from},
+                  {"to", l->to}};
+
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const rb_status s = rb_rolling_check_size(places[i].what, places[i].value, why);
+        if (s != RB_OK)
+            return s;
+        if (isfinite(a) && fabs(places[i].value) > FARTHEST * fmax(l->length, a))
+            return rb_refuse(why, places[i].what,
+                             "at %g half-widths places of the crack have no digits left, "
+                             "expected at most %g",
+                             places[i].value / a, FARTHEST * fmax(l->length, a) / a);
+    }
+    return RB_OK;
+}
+
+/* The stress of the contact changes over the half-width, or, deeper, over the depth: elements much
+ * longer than that do not see it. */
+static rb_status check_elements(const rb_case_crack *l, double a, rb_message *why)
+{
+    static const double LONGEST = 2.0;
+    const double slope = fabs(sin(l->angle * M_PI / 180.0));
+    const int n = l->elements;
+    double worst = 0.0;
+
+    for (int j = 0; j < n; j++) {
+        const double from = l->length * gsl_pow_2(sin(0.5 * M_PI * j / n)),
+                     to = l->length * gsl_pow_2(sin(0.5 * M_PI * (j + 1) / n));
+        worst = fmax(worst, (to - from) / fmax(a, l->depth + from * slope));
+    }
+    if (worst > LONGEST)
+        return rb_refuse(why, "crack-elements,crack-length",
+                         "%d elements along a crack of %g half-widths are up to %g times as long "
+                         "as the half-width or their depth, expected at most %g",
+                         n, l->length / a, worst, LONGEST);
+    return RB_OK;
+}
+
 /* What only the unit of the lengths tells. */
 static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k, double a,
                                rb_message *why)
@@ -87,6 +151,11 @@ static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k
                          "without --load and --half-width there is no half-width that "
                          "the lengths of the crack could be measured by; give them with a unit, "
                          "such as --crack-length 0.05mm");
+    rb_status s = check_places(&l, a, why);
+    if (s == RB_OK && !k->unloaded)
+        s = check_elements(&l, a, why);
+    if (s != RB_OK)
+        return s;
     if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))
         return rb_refuse(why, "crack-length,crack-depth,radius-b",
                          "body B counts as a half-plane; a crack as deep as %g of "
@@ -99,17 +168,17 @@ static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k
     if (rb_case_has_steps(c) || k->unloaded)
         return RB_OK;
     if (!(l.from < l.to))
-        return rb_refuse(why, "from,to",
+        return rb_refuse(why, "from,to,crack-mouth",
                          "A rolls towards +x; expected --from below --to, "
                          "got %g and %g half-widths",
                          l.from / a, l.to / a);
     const double step = (l.to - l.from) / a / (rc->steps > 0 ? rc->steps : INTERVALS);
     if (step > WIDE * (1.0 + 1e-12))
-        return rb_refuse(why, "steps",
+        return rb_refuse(why, "steps,from,to",
                          "%d steps of %g half-widths would jump over the crack, "
-                         "expected at least %d",
+                         "expected at least %.10g",
                          rc->steps > 0 ? rc->steps : INTERVALS, step,
-                         (int)ceil((l.to - l.from) / a / WIDE * (1.0 - 1e-12)));
+                         ceil((l.to - l.from) / a / WIDE * (1.0 - 1e-12)));
     return RB_OK;
 }
 
@@ -140,6 +209,11 @@ static rb_status check_remote(const rb_resolved_case *c, const rb_case_crack *k,
         return rb_refuse(why, "unloaded", "needs --remote-stress");
     if (k->unloaded && (bulk || c->program.bulk_stress_b))
         return rb_refuse(why, "bulk-stress-b", "--unloaded takes --remote-stress");
+    if (k->unloaded && (!isnan(k->from) || !isnan(k->to) || c->rc.steps > 0))
+        return rb_refuse(why, "from,to,steps", "not together with --unloaded: no contact passes");
+    if (k->unloaded && !cycles && k->passes > 1)
+        return rb_refuse(why, "passes",
+                         "nothing passes with --unloaded but a cycle, --remote-stress low,high");
     return RB_OK;
 }
 
@@ -159,7 +233,9 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
         return rb_refuse(why, "closing", "located only for --fluid trapped");
     if (k->unloaded && k->coupled)
         return rb_refuse(why, "coupled,unloaded", "not together with --unloaded");
-    rb_status s = check_remote(c, k, why);
+    rb_status s = check_sizes(k, why);
+    if (s == RB_OK)
+        s = check_remote(c, k, why);
     if (s != RB_OK)
         return s;
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
@@ -186,6 +262,10 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
         return s;
     if (rb_case_has_steps(c) && !isnan(k->to))
         return rb_refuse(why, "to", "the history says how far the contact goes");
+    if (rb_case_has_steps(c) && rc->formulation == RB_STATIC && rc->steps > 0)
+        return rb_refuse(why, "steps",
+                         "a contact at rest stays at --from, and its own steps are those of the "
+                         "crack; expected --increments or rows of --history");
     const double a = unit_of_load(c, k); /* before anything is solved, if it is known */
     return isnan(a) ? RB_OK : check_lengths(c, k, a, why);
 }

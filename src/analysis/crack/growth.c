@@ -10,10 +10,13 @@ enum { PIECE_ELEMENTS = 4 };
 
 rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
 {
+    const rb_case_crack none = rb_case_crack_defaults();
+
     if (isnan(k->paris))
-        return isnan(k->grow_to) && k->threshold == 0.0 && !k->tension
+        return isnan(k->grow_to) && k->threshold == none.threshold && k->tension == none.tension &&
+                       k->paris_range == none.paris_range && k->grow_steps == none.grow_steps
                    ? RB_OK
-                   : rb_refuse(why, "grow-to,threshold,growth",
+                   : rb_refuse(why, "grow-to,threshold,growth,paris-range,grow-steps",
                                "of a crack that grows; "
                                "give --paris C,m");
     if (k->paris_law.n != 2 || !(k->paris_law.value[1] > 0.0))

@@ -92,6 +92,8 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     rb_option_source(&number, *given, cli_case_file_of(&run->args), what, sizeof what);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
+    if (rb_rolling_check_size(name, *end, &why) != RB_OK)
+        return cli_case_refused(run->words, RB_EINVAL, &why);
     rb_case_store(run->words, &set, end);
     return CLI_CONTINUE;
 }

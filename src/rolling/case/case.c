@@ -49,13 +49,12 @@ rb_rolling_case rb_rolling_case_defaults(void)
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
-/* Squares and products of what is given must be numbers too. */
-static rb_status check_size(const char *what, double value, rb_message *why)
+rb_status rb_rolling_check_size(const char *what, double value, rb_message *why)
 {
     static const double least = 1e-100, most = 1e100;
     const double size = fabs(value);
 
-    if (isfinite(size) && (size < least || size > most))
+    if (size > 0.0 && isfinite(size) && (size < least || size > most))
         return rb_refuse(why, what, "expected a size of %g to %g, got %g", least, most, value);
     return RB_OK;
 }
@@ -104,8 +103,8 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
                 s = rb_rolling_check_number(b ? "relaxation-ratio-b" : "relaxation-ratio",
                                             memory[b]->ratio[k], why);
             if (s == RB_OK)
-                s = check_size(b ? "relaxation-time-b" : "relaxation-time", memory[b]->time[k],
-                               why);
+                s = rb_rolling_check_size(b ? "relaxation-time-b" : "relaxation-time",
+                                          memory[b]->time[k], why);
             if (s != RB_OK)
                 return s;
         }
@@ -618,7 +617,7 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
                            "each in plane strain (--support halfplane), without normal interlayer");
 }
 
-/* 0 says that it is not given, which check_size() takes as no number. */
+/* 0 says that it is not given, which rb_rolling_check_size() takes as no number. */
 static double where_given(double value)
 {
     return value != 0.0 ? value : (double)NAN;
@@ -663,7 +662,7 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"speed", where_given(rc->speed)}};
 
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
-        const rb_status s = check_size(sizes[k].what, sizes[k].value, why);
+        const rb_status s = rb_rolling_check_size(sizes[k].what, sizes[k].value, why);
         if (s != RB_OK)
             return s;
     }

@@ -107,4 +107,8 @@ rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc);
 /* The case that rolls without a force. */
 rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc);
 
+/* RB_EINVAL unless squares and products of what is given are numbers, too: a size
+ * of 1e-100 to 1e100.  what: the option; 0 is no size. */
+rb_status rb_rolling_check_size(const char *what, double value, rb_message *why);
+
 #endif

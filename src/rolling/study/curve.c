@@ -1,5 +1,6 @@
 /* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
  * the speed of viscoelastic bodies (V4). */
+#include "rolling/case/derived.h"
 #include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/columns.h"
@@ -308,6 +309,11 @@ static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *
     if (!isfinite(r->from) || !isfinite(r->to))
         return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers", r->from,
                        r->to);
+    rb_status s = rb_rolling_check_size("from", r->from, why);
+    if (s == RB_OK)
+        s = rb_rolling_check_size("to", r->to, why);
+    if (s != RB_OK)
+        return s;
     if (r->points < 1 || r->points > RB_ROLLING_MOST_POINTS)
         return rb_fail(why, RB_EINVAL, "points: expected 1 ... %d, got %d", RB_ROLLING_MOST_POINTS,
                        r->points);
