@@ -1,17 +1,17 @@
-/* Checks of the input. */
+/* Checks of the input; of sparse matrices and bounds: check_mixed.c. */
 #include "lcp/lemke/lemke.h"
 
 #include <cblas.h>
 #include <math.h>
 
-static rb_status check_options(const rb_lcp_options *opt, rb_message *why)
+rb_status rb_lcp_check_options(const rb_lcp_options *opt, rb_message *why)
 {
     if (opt->max_iters < 0)
         return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0", opt->max_iters);
     return RB_OK;
 }
 
-static rb_status check_q(int n, const double *q, rb_message *why)
+rb_status rb_lcp_check_q(int n, const double *q, rb_message *why)
 {
     for (int i = 0; i < n; i++)
         if (!isfinite(q[i]))
@@ -27,7 +27,7 @@ rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
         return rb_fail(why, RB_EINVAL, "lcp: n = %d: expected at least 1", n);
     if (p->ldm < n)
         return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", p->ldm, n);
-    rb_status s = check_options(opt, why);
+    rb_status s = rb_lcp_check_options(opt, why);
     for (int j = 0; j < n && s == RB_OK; j++) {
         const double *x = p->M + (size_t)j * (size_t)p->ldm;
         /* The sum of absolute values tells at once that a column is finite. */
@@ -38,7 +38,7 @@ rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
                             j + 1, x[i]);
     }
     if (s == RB_OK)
-        s = check_q(n, p->q, why);
+        s = rb_lcp_check_q(n, p->q, why);
     if (s != RB_OK)
         return s;
     for (int i = 0; i < n && opt->cover; i++) {
@@ -52,51 +52,4 @@ rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
                            i + 1, i + 1, p->q[i]);
     }
     return RB_OK;
-}
-
-rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper, rb_message *why)
-{
-    for (int i = 0; i < n; i++) {
-        const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
-        if (!(low <= high) || low == INFINITY || high == -INFINITY)
-            return rb_fail(why, RB_EINVAL,
-                           "lcp: bounds %d are [%g, %g]: expected lower <= upper, with a "
-                           "number in between",
-                           i + 1, low, high);
-    }
-    return RB_OK;
-}
-
-rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
-                              rb_message *why)
-{
-    if (M->rows < 1 || M->cols != M->rows)
-        return rb_fail(why, RB_EINVAL, "lcp: M is %d by %d: expected a square matrix", M->rows,
-                       M->cols);
-    const rb_status s = check_options(opt, why);
-    for (int j = 0; j < M->cols && s == RB_OK; j++)
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            if (!isfinite(M->x[k]))
-                return rb_fail(why, RB_EINVAL, "lcp: M(%d, %d) = %g: expected a finite number",
-                               M->i[k] + 1, j + 1, M->x[k]);
-    return s == RB_OK ? check_q(M->cols, q, why) : s;
-}
-
-rb_status rb_lcp_check_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
-                             rb_message *why)
-{
-    rb_status s = rb_lcp_check_sparse(p->M, p->q, opt, why);
-    if (s == RB_OK)
-        s = rb_lcp_check_boxes(p->M->rows, p->lower, p->upper, why);
-    for (int i = 0; s == RB_OK && i < p->M->rows; i++) {
-        const double cover = opt->cover ? opt->cover[i] : 1.0;
-        const double start = opt->start ? opt->start[i] : 0.0;
-        if (!(isfinite(cover) && cover >= 0.0))
-            s = rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0", i + 1,
-                        cover);
-        else if (!isfinite(start))
-            s = rb_fail(why, RB_EINVAL, "lcp: start(%d) = %g: expected a finite number", i + 1,
-                        start);
-    }
-    return s;
 }

@@ -70,6 +70,8 @@ rb_status rb_lcp_assess(rb_lcp_info *info);
 
 /* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
 
+rb_status rb_lcp_check_options(const rb_lcp_options *opt, rb_message *why);
+rb_status rb_lcp_check_q(int n, const double *q, rb_message *why);
 rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt, rb_message *why);
 rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                               rb_message *why);

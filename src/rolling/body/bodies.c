@@ -124,7 +124,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
     bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;
     bodies->seconds_condense = one_body[0].seconds_condense + one_body[1].seconds_condense;
     /* The third body between them gives way on the diagonals. */
-    if (s == RB_OK && !large)
+    if (s == RB_OK && !large && !rb_bem_flexibility_stored(&bodies->f))
         s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)
         s = add_interlayer(rc, &bodies->f);

@@ -51,9 +51,22 @@ static inline int rb_rolling_mesh_is_graded(const rb_rolling_case *rc)
     return rc->mesh == RB_MESH_FITTED || rc->mesh == RB_MESH_PUNCH;
 }
 
+/* The number of elements from which Fourier transforms are faster than a matrix, and whether the
+ * case can be solved by them. */
+static inline int rb_rolling_transforms_from(const rb_rolling_case *rc)
+{
+    return rc->mesh == RB_MESH_FITTED     ? RB_ROLLING_TRANSFORMS_FITTED
+           : rc->formulation != RB_STEADY ? RB_ROLLING_TRANSFORMS_STEPS
+           : rc->mesh == RB_MESH_ALIGNED  ? RB_ROLLING_TRANSFORMS_ALIGNED
+                                          : RB_ROLLING_TRANSFORMS;
+}
+int rb_rolling_can_transform(const rb_rolling_case *rc);
 /* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,
  * without a matrix. */
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+static inline int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return mesh->n >= rb_rolling_transforms_from(rc) && rb_rolling_can_transform(rc);
+}
 /* The same for a build that has Fourier transforms: the page has none, and takes the same
  * elements. */
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);

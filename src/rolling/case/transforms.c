@@ -43,15 +43,10 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
 
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    const int least = rc->mesh == RB_MESH_FITTED     ? RB_ROLLING_TRANSFORMS_FITTED
-                      : rc->formulation != RB_STEADY ? RB_ROLLING_TRANSFORMS_STEPS
-                      : rc->mesh == RB_MESH_ALIGNED  ? RB_ROLLING_TRANSFORMS_ALIGNED
-                                                     : RB_ROLLING_TRANSFORMS;
-
-    return mesh->n >= least && suits_transforms(rc);
+    return mesh->n >= rb_rolling_transforms_from(rc) && suits_transforms(rc);
 }
 
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+int rb_rolling_can_transform(const rb_rolling_case *rc)
 {
-    return RB_TRANSFORMS && rb_rolling_suits_large(rc, mesh);
+    return RB_TRANSFORMS && suits_transforms(rc);
 }
