@@ -1,3 +1,5 @@
+/* Sparse matrices by columns, as in CSparse: p[j] ... p[j + 1] - 1 are the entries of column j, i
+ * their rows, increasing, x their values. */
 #include "base/sparse.h"
 
 #include <limits.h>
@@ -34,6 +36,8 @@ static void running_sum(int n, int *counts)
         counts[k + 1] += counts[k];
 }
 
+/* The entries, in an order of increasing rows, go to their columns one after the other (a counting
+ * sort), so that each column has its rows in order; equal ones are then added. */
 static rb_status place_entries(const rb_triplets *t, const int *order, rb_sparse *a)
 {
     int *next = rb_alloc_int((size_t)a->cols);
@@ -85,6 +89,7 @@ rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
     rb_status s = scratch.failed ? RB_ENOMEM : sparse_alloc(t->rows, t->cols, t->nz, a);
     if (s != RB_OK)
         return rb_arena_done(&scratch, s);
+    /* order: the entries by rows, also by a counting sort */
     for (int k = 0; k < t->nz; k++)
         start[t->row[k] + 1]++;
     running_sum(t->rows, start);
@@ -223,6 +228,8 @@ double rb_sparse_diagonal(const rb_sparse *a, int j)
     return 0.0;
 }
 
+/* Each column of A is gone through in order, and its entries are put behind those that their rows,
+ * the columns of A', have already. */
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t)
 {
     const int nz = a->p[a->cols];
@@ -266,6 +273,8 @@ void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *
     }
 }
 
+/* The root of a tree of connected indices; every index on the way then points to that which stood
+ * two above it, so that ways become short (path halving). */
 static int find_root(int *up, int i)
 {
     while (up[i] != i)
@@ -273,6 +282,7 @@ static int find_root(int *up, int i)
     return i;
 }
 
+/* Columns are stored in one order, so that A = A' is a comparison of arrays. */
 rb_status rb_sparse_is_symmetric(const rb_sparse *a, int *symmetric)
 {
     rb_sparse t;
@@ -290,6 +300,7 @@ rb_status rb_sparse_is_symmetric(const rb_sparse *a, int *symmetric)
     return RB_OK;
 }
 
+/* Union-find: each entry joins the trees of its row and its column; a tree is a component. */
 rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part)
 {
     *count = 0;

@@ -155,7 +155,7 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
     if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
         return failed(r, s, r->info.msg.text);
     if (s == RB_OK && rb_friction_note(run->o->tol, &r->info, &r->note))
-        fprintf(stderr, "rollbem: %s: note: %s\n", r->file, r->note.text);
+        cli_note(r->file, "%s", r->note.text);
     if (s == RB_OK)
         return CLI_OK;
     if (run->o->measure != RB_FRICTION_BY_ACARY && r->info.scaled <= run->o->tol)
@@ -314,14 +314,82 @@ static json_t *json_of_all(const friction_result *r)
     return list;
 }
 
+/* Notes on W; ranks on request, unsymmetric and indefinite W in any case. */
+static cli_exit examine(const friction_run *run, const rb_friction_problem *p, friction_result *r)
+{
+    if (run->o->facts || r->m <= MOST_ROWS) {
+        const rb_status s = rb_friction_examine(p, run->o->facts, &r->facts);
+        if (s != RB_OK)
+            return failed(r, s, rb_status_text(s));
+        if (r->facts.asymmetry > 1e-12)
+            cli_note(r->file, "W is not symmetric (|W - W'| is %.2g of |W|)", r->facts.asymmetry);
+        if (r->facts.indefinite)
+            cli_note(r->file, "W is indefinite: a solution may not exist or may not be unique");
+    }
+    const int several = p->dimension == 2 ? rb_friction_may_have_several(p) : 0;
+    if (several)
+        cli_note(r->file, "W_NN - mu |W_NT| < 0 at contact %d: there may be several solutions%s",
+                 several, p->contacts <= RB_FRICTION_ALL_UP_TO ? "; --all lists them" : "");
+    return CLI_OK;
+}
+
 /* A least load that is so many times what is given is worth a note. */
 static const double MUCH = 1e3;
+
+/* Why a problem may have no solution, which none of the solvers has found. */
+static cli_exit look_for_reason(const rb_friction_problem *p, friction_result *r)
+{
+    double least, given;
+    int floats = 0;
+
+    if (rb_friction_floats(p, &floats) != RB_OK)
+        return failed(r, RB_ENOMEM, "out of memory");
+    if (floats) {
+        r->status = "infeasible";
+        cli_note(r->file, "no equilibrium exists: the forces drive a motion that neither K nor any "
+                          "contact resists");
+    } else if (rb_friction_has_no_solution(p, &least, &given)) {
+        r->status = "infeasible";
+        cli_note(r->file, "no solution exists: whatever the reactions are, they cannot prevent "
+                          "penetration at all contacts");
+    } else if (least > MUCH * given)
+        cli_note(r->file,
+                 "there is no solution with a sum W_NN r_N below %.2g; |q| adds up to %.2g",
+                 0.95 * least, given); /* two digits are not above it */
+    return CLI_UNSOLVED;
+}
+
+/* By the solver of the options, into r. */
+static cli_exit solve_one(friction_run *run, const rb_friction_problem *p, friction_result *r)
+{
+    const rb_friction_options opt = solver_options(run);
+    const rb_friction_solution solution = {r->r, r->u, NULL};
+    if (!run->o->trace)
+        cli_wait_begin();
+    const rb_status s = rb_friction_solve(run->o->solver, p, &opt, &solution, &r->info);
+    if (!run->o->trace)
+        cli_wait_end();
+    cli_exit code = assess(run, r, s);
+    if (code == CLI_UNSOLVED)
+        code = look_for_reason(p, r);
+    if (run->o->prove && r->m > 0)
+        code = prove(r, p, code);
+    if (p->lengths) {
+        /* Rolling contacts are solved as two contacts each and told as one of five
+         * entries. */
+        rb_friction_unite_rolling(p, r->r, r->u, r->r, r->u);
+        r->contacts = p->contacts / 2;
+        r->dimension = 5;
+        r->m = r->dimension * r->contacts;
+    }
+    return code;
+}
 
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
     rb_message why = {.text = ""};
-    rb_status s =
+    const rb_status s =
         rb_friction_read_as(cli_spool_path(&r->read), (rb_friction_file)run->o->kind, &p, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
@@ -335,82 +403,20 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         return CLI_OK;
     }
     if (p.asymmetry > 0.0)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: K is not symmetric (|K - K'| is %.2g of |K|); its symmetric part "
-            "is solved\n",
-            r->file, p.asymmetry);
+        cli_note(r->file,
+                 "K is not symmetric (|K - K'| is %.2g of |K|); its symmetric part is solved",
+                 p.asymmetry);
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
     cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
     if (code == CLI_OK && run->o->prove && p.lengths)
         code = failed(r, RB_EINVAL, "--prove does not take rolling friction: leave it out");
-    if (code == CLI_OK && run->o->all) {
+    if (code == CLI_OK && run->o->all)
         code = find_all(run, r, &p);
-        rb_friction_problem_free(&p);
-        return code;
-    }
-    /* Ranks on request; unsymmetric and indefinite W in any case. */
-    if (code == CLI_OK && (run->o->facts || r->m <= MOST_ROWS)) {
-        s = rb_friction_examine(&p, run->o->facts, &r->facts);
-        if (s != RB_OK)
-            code = failed(r, s, rb_status_text(s));
-        else if (r->facts.asymmetry > 1e-12)
-            fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
-                    r->file, r->facts.asymmetry);
-        if (s == RB_OK && r->facts.indefinite)
-            fprintf(stderr,
-                    "rollbem: %s: note: W is indefinite: a solution may not exist or may not be "
-                    "unique\n",
-                    r->file);
-    }
-    const int several = code == CLI_OK && p.dimension == 2 ? rb_friction_may_have_several(&p) : 0;
-    if (several)
-        fprintf(stderr,
-                "rollbem: %s: note: W_NN - mu |W_NT| < 0 at contact %d: there may be several "
-                "solutions%s\n",
-                r->file, several, p.contacts <= RB_FRICTION_ALL_UP_TO ? "; --all lists them" : "");
-    if (code == CLI_OK) {
-        const rb_friction_options opt = solver_options(run);
-        const rb_friction_solution solution = {r->r, r->u, NULL};
-        if (!run->o->trace)
-            cli_wait_begin();
-        s = rb_friction_solve(run->o->solver, &p, &opt, &solution, &r->info);
-        if (!run->o->trace)
-            cli_wait_end();
-        code = assess(run, r, s);
-        double least, given;
-        int floats = 0;
-        if (code == CLI_UNSOLVED && rb_friction_floats(&p, &floats) != RB_OK)
-            code = failed(r, RB_ENOMEM, "out of memory");
-        if (floats) {
-            r->status = "infeasible";
-            fprintf(stderr,
-                    "rollbem: %s: note: no equilibrium exists: the forces drive a motion that "
-                    "neither K nor any contact resists\n",
-                    r->file);
-        } else if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
-            r->status = "infeasible";
-            fprintf(stderr,
-                    "rollbem: %s: note: no solution exists: whatever the reactions are, they "
-                    "cannot prevent penetration at all contacts\n",
-                    r->file);
-        } else if (code == CLI_UNSOLVED && least > MUCH * given)
-            fprintf(stderr,
-                    "rollbem: %s: note: there is no solution with a sum W_NN r_N below %.2g; |q| "
-                    "adds up to %.2g\n",
-                    r->file, 0.95 * least, given); /* two digits are not above it */
-        if (run->o->prove && r->m > 0)
-            code = prove(r, &p, code);
-        if (p.lengths) {
-            /* Rolling contacts are solved as two contacts each and told as one of five
-             * entries. */
-            rb_friction_unite_rolling(&p, r->r, r->u, r->r, r->u);
-            r->contacts = p.contacts / 2;
-            r->dimension = 5;
-            r->m = r->dimension * r->contacts;
-        }
-    }
+    else if (code == CLI_OK)
+        code = examine(run, &p, r);
+    if (code == CLI_OK && !run->o->all)
+        code = solve_one(run, &p, r);
     rb_friction_problem_free(&p);
     return code;
 }
@@ -445,6 +451,71 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
     return code;
 }
 
+/* What --all, --solution, --prove and --trace add to the object of the file. */
+static void add_members(const friction_run *run, cli_rows *rows, friction_result *r, int known)
+{
+    if (run->o->all) {
+        cli_rows_set(rows, "solutions", known ? json_of_all(r) : json_null());
+        cli_rows_set(rows, "singular", known ? json_integer(r->all.singular) : json_null());
+        cli_rows_set(rows, "undecided", known ? json_integer(r->all.undecided) : json_null());
+    } else if (run->o->solution) {
+        cli_rows_set(rows, "r", r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
+        cli_rows_set(rows, "u", r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
+    }
+    if (run->o->prove)
+        cli_rows_set(rows, "proof",
+                     r->is_tried ? rb_report_json_friction_proof(&r->proof) : json_null());
+    if (run->o->trace)
+        cli_rows_set(rows, "trace", json_incref(run->steps));
+}
+
+/* The row of the file, or a # line and a row per component of its solutions. */
+static void list_rows(friction_run *run, friction_result *r, int n, const cli_value *values)
+{
+    cli_rows *rows = &run->files.rows;
+
+    if (r->note.text[0])
+        rb_report_comment(&rows->cells, "note: %s: %s", r->file, r->note.text);
+    if (run->o->all)
+        list_all(run, r);
+    else if (!run->o->solution)
+        cli_rows_add(rows, n, values);
+    else
+        rb_report_comment(
+            &rows->cells, "%s: %s by %s, %d contact%s, %d iteration%s, residual %.3g, %.3g s",
+            r->file, r->status, r->info.solver, r->contacts, rb_plural(r->contacts), r->info.iters,
+            rb_plural(r->info.iters), r->info.residual, r->info.seconds);
+    if (run->o->solution && run->o->facts)
+        rb_report_comment(&rows->cells, "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                          r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
+                          r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
+    for (int i = 0; i < r->m && run->o->solution && !run->o->all; i++) {
+        const cli_value component[] = {CLI_TEXT(NULL, "file", r->file), CLI_WHOLE(NULL, "i", i + 1),
+                                       CLI_NUMBER(NULL, "r", r->r[i]),
+                                       CLI_NUMBER(NULL, "u", r->u[i])};
+        cli_rows_add(rows, sizeof component / sizeof *component, component);
+    }
+}
+
+/* Solves the file in the form that it has. */
+static cli_exit solve_kind(friction_run *run, friction_result *r)
+{
+    rb_friction_file kind = (rb_friction_file)run->o->kind;
+    rb_message why = {.text = ""};
+    rb_status s = cli_spool_begin(r->file, &r->read, &why);
+    if (s == RB_OK && kind == RB_FRICTION_FILE_ANY)
+        s = rb_friction_file_kind(cli_spool_path(&r->read), &kind, &why);
+    if (s != RB_OK)
+        return unreadable(r, s, &why);
+    if (kind != RB_FRICTION_FILE_SICONOS_SOCLCP)
+        return solve_friction(run, r);
+    if (run->o->all)
+        return failed(r, RB_EINVAL, "--all does not read problems on cones");
+    if (run->o->prove)
+        return failed(r, RB_EINVAL, "--prove does not read problems on cones: leave it out");
+    return solve_cones(run, r);
+}
+
 static cli_exit solve_file(void *context, const char *path)
 {
     friction_run *run = context;
@@ -452,23 +523,8 @@ static cli_exit solve_file(void *context, const char *path)
         .file = path,
         .measure = cli_friction_measures[run->o->measure].name,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
-    rb_friction_file kind = (rb_friction_file)run->o->kind;
-    rb_message why = {.text = ""};
-    rb_status s = cli_spool_begin(path, &r.read, &why);
-    if (s == RB_OK && kind == RB_FRICTION_FILE_ANY)
-        s = rb_friction_file_kind(cli_spool_path(&r.read), &kind, &why);
     run->steps = json_array();
-    cli_exit code;
-    if (s != RB_OK)
-        code = unreadable(&r, s, &why);
-    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP && run->o->all)
-        code = failed(&r, RB_EINVAL, "--all does not read problems on cones");
-    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP && run->o->prove)
-        code = failed(&r, RB_EINVAL, "--prove does not read problems on cones: leave it out");
-    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
-        code = solve_cones(run, &r);
-    else
-        code = solve_friction(run, &r);
+    const cli_exit code = solve_kind(run, &r);
     const int known = r.m > 0 || (r.dimension > 0 && code == CLI_OK);
     const rb_friction_info *info = &r.info;
     const rb_friction_facts *facts = &r.facts;
@@ -502,43 +558,9 @@ static cli_exit solve_file(void *context, const char *path)
     cli_rows *rows = &run->files.rows;
     if (rows->is_json) {
         cli_rows_add(rows, run->o->facts ? VALUES : VALUES - FACTS, values);
-        if (run->o->all) {
-            cli_rows_set(rows, "solutions", known ? json_of_all(&r) : json_null());
-            cli_rows_set(rows, "singular", known ? json_integer(r.all.singular) : json_null());
-            cli_rows_set(rows, "undecided", known ? json_integer(r.all.undecided) : json_null());
-        } else if (run->o->solution) {
-            cli_rows_set(rows, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
-            cli_rows_set(rows, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
-        }
-        if (run->o->prove)
-            cli_rows_set(rows, "proof",
-                         r.is_tried ? rb_report_json_friction_proof(&r.proof) : json_null());
-        if (run->o->trace)
-            cli_rows_set(rows, "trace", json_incref(run->steps));
-    } else if (known) {
-        if (r.note.text[0])
-            rb_report_comment(&rows->cells, "note: %s: %s", r.file, r.note.text);
-        if (run->o->all)
-            list_all(run, &r);
-        else if (!run->o->solution)
-            cli_rows_add(rows, VALUES, values);
-        else
-            rb_report_comment(&rows->cells,
-                              "%s: %s by %s, %d contact%s, %d iteration%s, residual %.3g, %.3g s",
-                              r.file, r.status, info->solver, r.contacts, rb_plural(r.contacts),
-                              info->iters, rb_plural(info->iters), info->residual, info->seconds);
-        if (run->o->solution && run->o->facts)
-            rb_report_comment(&rows->cells,
-                              "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
-                              facts->rank, facts->hyperstaticity, facts->nullity, facts->asymmetry,
-                              facts->indefinite ? ", indefinite" : "");
-        for (int i = 0; i < r.m && run->o->solution && !run->o->all; i++) {
-            const cli_value component[] = {
-                CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "i", i + 1),
-                CLI_NUMBER(NULL, "r", r.r[i]), CLI_NUMBER(NULL, "u", r.u[i])};
-            cli_rows_add(rows, sizeof component / sizeof *component, component);
-        }
-    }
+        add_members(run, rows, &r, known);
+    } else if (known)
+        list_rows(run, &r, VALUES, values);
     cli_spool_end(&r.read);
     json_decref(run->steps);
     rb_friction_solutions_free(&r.all);

@@ -102,16 +102,15 @@ cli_exit cli_lcp_say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solut
     for (int k = 0; k < r->sets; k++)
         mixed += r->set[k + 1] - r->set[k] > 1;
     if (mixed)
-        fprintf(stderr,
-                "rollbem: %s: note: %d extreme equilibria in %d maximal set%s; all others are "
-                "mixtures within a set\n",
-                r->file, all->count, r->sets, rb_plural(r->sets));
+        cli_note(r->file,
+                 "%d extreme equilibria in %d maximal set%s; all others are "
+                 "mixtures within a set",
+                 all->count, r->sets, rb_plural(r->sets));
     if (o->game && all->count && r->sets == 0)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: %d extreme equilibria, in more than 1000 maximal sets, which are "
-            "not listed\n",
-            r->file, all->count);
+        cli_note(r->file,
+                 "%d extreme equilibria, in more than 1000 maximal sets, which are "
+                 "not listed",
+                 all->count);
     if (all->count && end == RB_OK)
         return cli_lcp_end(o, r, RB_OK);
     if (!all->count)

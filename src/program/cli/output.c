@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <jansson.h>
 #include <stddef.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -391,24 +392,34 @@ static rb_status write_problems(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
+void cli_note(const char *file, const char *format, ...)
+{
+    va_list args;
+    fprintf(stderr, "rollbem: %s: note: ", file);
+    va_start(args, format);
+    vfprintf(stderr, format, args);
+    va_end(args);
+    fputc('\n', stderr);
+}
+
 void cli_note_enumeration(const char *file, const char *what, int solutions, int nearby,
                           int singular_only, int undecided, int tried)
 {
     if (nearby)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d solutions hold%s within rounding only: of these "
-                "numbers exactly there may be none\n",
-                file, nearby, solutions, nearby == 1 ? "s" : "");
+        cli_note(file,
+                 "%d of %d solutions hold%s within rounding only: of these "
+                 "numbers exactly there may be none",
+                 nearby, solutions, nearby == 1 ? "s" : "");
     if (singular_only)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d solutions belong%s to singular %s only: others may "
-                "lie next to %s\n",
-                file, singular_only, solutions, singular_only == 1 ? "s" : "", what,
-                singular_only == 1 ? "it" : "them");
+        cli_note(file,
+                 "%d of %d solutions belong%s to singular %s only: others may "
+                 "lie next to %s",
+                 singular_only, solutions, singular_only == 1 ? "s" : "", what,
+                 singular_only == 1 ? "it" : "them");
     if (solutions && undecided)
-        fprintf(stderr, "rollbem: %s: note: at least %d solution%s: %d of %d %s %s undecided\n",
-                file, solutions - nearby, rb_plural(solutions - nearby), undecided, tried, what,
-                undecided == 1 ? "is" : "are");
+        cli_note(file, "at least %d solution%s: %d of %d %s %s undecided", solutions - nearby,
+                 rb_plural(solutions - nearby), undecided, tried, what,
+                 undecided == 1 ? "is" : "are");
 }
 
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output)

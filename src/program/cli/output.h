@@ -118,6 +118,8 @@ typedef struct {
 /* All operands, also after one that fails; the largest exit code of them. */
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output);
 
+/* A note on a file, on standard error. */
+void cli_note(const char *file, const char *format, ...) RB_PRINTF(2, 3);
 /* Notes on what all solutions of a file may lack, where `what` (bases, states) were tried:
  * those within rounding only, those that only singular ones have, and undecided ones. */
 void cli_note_enumeration(const char *file, const char *what, int solutions, int nearby,
