@@ -144,7 +144,7 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
 
 static void convert(rb_report_curves *curves, rb_units units)
 {
-    for (int k = 0; k < RB_REPORT_CURVES; k++) {
+    for (int k = 0; k < curves->n; k++) {
         rb_rolling_curve_convert(&curves->curve[k], units);
         rb_rolling_curve_convert(&curves->error[k], units);
         rb_case_slopes_convert(&curves->slopes[k], units);
@@ -160,9 +160,10 @@ static rb_rolling_note_list notes_on_points(const rb_report_curves *curves)
     return rb_rolling_list_study_notes(&found, "point");
 }
 
+/* Those that are solved, and the one that was refused, if there is one. */
 static void free_curves(rb_report_curves *curves)
 {
-    for (int k = 0; k < RB_REPORT_CURVES; k++) {
+    for (int k = 0; k <= curves->n && k < RB_REPORT_CURVES; k++) {
         rb_rolling_curve_free(&curves->curve[k]);
         rb_rolling_curve_free(&curves->error[k]);
         rb_case_slopes_free(&curves->slopes[k]);
