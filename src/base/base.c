@@ -1,3 +1,4 @@
+/* Messages with numbers, status words, text in the locale of programs, memory, the clock. */
 #include "base/base.h"
 
 #include <lapacke.h>

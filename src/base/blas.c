@@ -1,3 +1,4 @@
+/* Which kernels OpenBLAS uses, and how many threads loops and products may take. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "base/blas.h"
 

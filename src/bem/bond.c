@@ -1,3 +1,5 @@
+/* The core under a cover (B11): its flexibility, what it adds to the system, what it leaves over.
+ */
 #include "bem/bond.h"
 
 #include "bem/internal.h"

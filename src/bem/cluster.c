@@ -1,3 +1,4 @@
+/* A binary tree of clusters: elements are ordered by halving boxes at their median. */
 #include "bem/cluster.h"
 #include "base/blas.h"
 

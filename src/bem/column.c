@@ -1,3 +1,6 @@
+/* The columns of H and G that belong to one element (B2, B3), in blocks of points.  Far blocks need
+ * a short series, near points the closed form; each step is a loop of its own over the block, which
+ * compilers turn into vectors. */
 #include "bem/column.h"
 
 #include <stdlib.h>

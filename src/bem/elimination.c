@@ -1,3 +1,4 @@
+/* X = L U of the part that is eliminated, and the passes up and down the tree with it. */
 #include "bem/elimination.h"
 
 #include <cblas.h>

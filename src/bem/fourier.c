@@ -1,3 +1,4 @@
+/* A real transform by a complex one of half the length; plans are kept from case to case. */
 #include "bem/fourier.h"
 #include "base/sizes.h"
 #include "base/blas.h"

@@ -1,3 +1,6 @@
+/* Upwards in the tree the values of a cluster's columns are gathered at its skeleton; where a
+ * cluster is seen from afar its skeleton gives what all its columns give, near leaves are added
+ * exactly. */
 #include "bem/given.h"
 #include "bem/internal.h"
 #include "bem/mixed.h"

@@ -1,3 +1,6 @@
+/* Level by level from the leaves: clusters are made of the skeletons of two, what they exchange
+ * with afar is reduced to a skeleton, all others are eliminated; the last cluster is factored
+ * whole. */
 #include "bem/hierarchical.h"
 #include "bem/hierarchical_parts.h"
 #include "base/blas.h"

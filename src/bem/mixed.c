@@ -1,3 +1,4 @@
+/* Entries are integrated when asked for; a circle of loads stands for all that is far (proxies). */
 #include "bem/mixed.h"
 #include "bem/internal.h"
 

@@ -1,3 +1,4 @@
+/* QR with column pivoting, in blocks by LAPACK, until what is left is below the tolerance. */
 #include "bem/skeleton.h"
 
 #include <cblas.h>

@@ -1,3 +1,5 @@
+/* Newton steps on the smoothed projection with a line search; the smoothing and the regularisation
+ * become smaller with the residual. */
 #include "lcp/friction/smoothing.h"
 
 #include <math.h>

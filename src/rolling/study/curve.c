@@ -58,6 +58,23 @@ static rb_status note_point(const rb_rolling_model *model, rb_units units, rb_ro
     return notes.status;
 }
 
+/* The solution of the last point, with the least dissipation and the largest kappa of all, which
+ * notes are about. */
+static rb_status keep_last(const rb_rolling_model *model, rb_rolling_curve *c, rb_message *why)
+{
+    const rb_status s = rb_rolling_model_solution(model, &c->last, why);
+
+    if (c->ellipse_force)
+        c->last.ellipse_force = c->ellipse_force[c->n - 1];
+    for (int i = 0; i < c->n && s == RB_OK; i++) {
+        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[i]);
+        if (c->kappa)
+            c->last.kappa = fmax(c->last.kappa, c->kappa[i]);
+    }
+    return s;
+}
+
+/* The columns of one more point, from the state as solved. */
 static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
                         rb_message *why)
 {
@@ -117,18 +134,8 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
         s = note_point(model, w->units, c, why);
     if (s == RB_OK && w->point)
         s = w->point(model, k, w->context, why);
-    if (s != RB_OK || c->n != (c->branch ? 2 * c->rising : c->rising))
-        return s;
-    const rb_status status = rb_rolling_model_solution(model, &c->last, why);
-
-    if (c->ellipse_force)
-        c->last.ellipse_force = c->ellipse_force[k];
-    for (int i = 0; i < c->n && status == RB_OK; i++) {
-        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[i]);
-        if (c->kappa)
-            c->last.kappa = fmax(c->last.kappa, c->kappa[i]);
-    }
-    return status;
+    const int is_last = c->n == (c->branch ? 2 * c->rising : c->rising);
+    return s == RB_OK && is_last ? keep_last(model, c, why) : s;
 }
 
 static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case *rc)
@@ -204,6 +211,38 @@ static rb_status record_unsolved(const rb_rolling_model *model, const rb_rolling
     return c->kappa && model->state.p ? rb_rolling_law_kappa(model, &c->kappa[k]) : RB_OK;
 }
 
+/* A fitted mesh whose contact has moved is fitted again, with the zones of the state; after
+ * RB_ZONE, a potential contact that is full, the whole search for the contact begins again.  edge:
+ * of the contact for which the mesh was made, set anew. */
+static rb_status follow_contact(const rb_rolling_case *steady, rb_status s, double edge[2],
+                                rb_rolling_model *model, rb_message *why)
+{
+    double from = NAN, to = NAN;
+
+    if (s == RB_OK)
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    const double moved =
+        fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
+    if (s == RB_ZONE) {
+        const int iterations = model->iterations;
+        rb_rolling_plan plan = rb_rolling_plan_of(steady);
+        plan.start = model->plan.start;
+        rb_rolling_model_free(model);
+        s = rb_rolling_model_reuse(steady, &plan, model, why);
+        model->iterations += iterations;
+    } else if (s == RB_OK && steady->mesh != RB_MESH_UNIFORM && moved > RB_ROLLING_REFIT)
+        s = steady->mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
+                                            : rb_rolling_model_refit(model, why);
+    else
+        return s;
+    if (s == RB_OK)
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
+    return s;
+}
+
+/* One model for all creepages (4.6): the flexibility does not depend on them, and each point starts
+ * from the zones of the point before.  Friction that depends on the state may have two branches
+ * (F3): the creepages are then followed there and back. */
 static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
                                 const watcher *w, rb_rolling_model *model, rb_rolling_curve *c,
                                 rb_message *why)
@@ -237,29 +276,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             s = remember_branch(model, &start);
             model->plan.start = &start.table;
         }
-        /* A fitted mesh whose contact has moved is fitted again; a potential contact that is
-         * full is chosen again. */
-        double from = NAN, to = NAN;
-        if (s == RB_OK)
-            rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
-        const double moved =
-            fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-        if (is_made && (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM &&
-                                         moved > RB_ROLLING_REFIT))) {
-            if (s == RB_ZONE) { /* the whole search for the contact again */
-                const int iterations = model->iterations;
-                rb_rolling_plan plan = rb_rolling_plan_of(&steady);
-                plan.start = model->plan.start;
-                rb_rolling_model_free(model);
-                s = rb_rolling_model_reuse(&steady, &plan, model, &reason);
-                model->iterations += iterations;
-            } else
-                s = steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, &reason)
-                                                   : rb_rolling_model_refit(model, &reason);
-            if (s == RB_OK)
-                rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
-                                         &edge[1]);
-        }
+        if (is_made)
+            s = follow_contact(&steady, s, edge, model, &reason);
         if (s != RB_OK && first == RB_OK && why)
             *why = reason;
         if (is_unsolved(s)) {
@@ -277,7 +295,9 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
     return s == RB_OK ? first : s;
 }
 
-/* The flexibility itself depends on the speed. */
+/* The flexibility of bodies that relax depends on the speed (V4): each point has a model of its
+ * own.
+ */
 static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r, const watcher *w,
                              rb_rolling_model *model, rb_rolling_curve *c, rb_message *why)
 {
