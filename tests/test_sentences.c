@@ -136,6 +136,10 @@ static const sentence notes[] = {
      "force -194.9 N/mm",
      PUSHED "40 --memory 5e-5 --history pushed.txt",
      PUSHED "40 --memory 3e-3 --history pushed.txt"},
+    {"not-unique-row",
+     "In step 1 nothing is held, and elements slide towards both sides: its shift",
+     "--support halfplane --mu 0.01 --contact-elements 20 --history drawn.txt",
+     "--support halfplane --mu 0.01 --contact-elements 19 --history drawn.txt"},
     {"stick-edge", "The pressure is singular at the edge of what sticks and does not wear",
      "wear " STEEL "--radius 100 --mu 0.5 --load 100 --force-ratio 0.6 --cycles 1e6 "
      "--wear-coefficient 1e-8 --wear-steps 2 --quarter 2 --contact-elements 40",
@@ -339,6 +343,7 @@ static int write_gaps(void)
                "1.75 .0001464\n2 0\n");
     write_file("chamfer.txt", "-4 .6\n-1 0\n1 0\n4 .6\n");
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
+    write_file("drawn.txt", "load force_ratio\n300 0\n600 0\n600 0.9\n");
     write_file("sudden.txt", "load force\n0.01 0\n100 15\n");
     write_file("gradual.txt", "load force\n50 0\n100 15\n");
     FILE *swings = NOT_NULL(fopen("swings.txt", "w")), *waves = NOT_NULL(fopen("waves.txt", "w"));

@@ -140,11 +140,11 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
 
 /* What is to be known of the rows of a history at rest; rows are counted from 1, 0: none. */
 typedef struct {
-    int changed;       /* the row whose tractions still depend on its steps */
-    double changes;    /* by how much, as a part of what the load makes */
-    int jumped;        /* the first row in which the contact jumps to full sliding (F6) */
-    double jump_shift; /* before the jump [length] */
-    double jump_force; /* likewise [force/length] */
+    int changed;    /* the row whose tractions still depend on its steps */
+    double changes; /* by how much, as a part of what the load makes */
+    int jumped;     /* the first row in which the contact jumps to full sliding (F6) */
+    double jump_shift, jump_force; /* before the jump [length], [force/length] */
+    int not_unique; /* the first row but the last whose shift or creepage is any of a range */
 } rb_rolling_rows;
 
 enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };

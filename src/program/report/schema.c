@@ -138,7 +138,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "conventions", typed("string", "signs and zones"));
     rb_report_json_set(&of, "notes",
                        list_of(typed("string", NULL),
-                               "notes on how to read the result; of a history: on its last state"));
+                               "notes on how to read the result; of a history: on its last "
+                               "state, or the row they name"));
     rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
     rb_report_json_set(&of, "input_hash",
                        typed("string", "of all inputs and the contents of the files they name"));

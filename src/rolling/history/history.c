@@ -147,6 +147,24 @@ static int steps_found(const history_state *r)
     return known > 0 ? known : r->found->substeps[r->history->n];
 }
 
+/* 1: a force is given, and what sticks is at the bound of its friction while the others slide
+ * towards both sides. */
+static int is_not_unique(const rb_rolling_model *model)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
+    int negative = 0, positive = 0;
+
+    if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
+        return 0;
+    for (int i = 0; i < state->n; i++) {
+        negative |= state->zone[i] == RB_ZONE_SLIP_NEGATIVE;
+        positive |= state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+    }
+    return negative && positive &&
+           rb_rolling_held(state->n, state->zone, state->p, state->q, p->bound, p->mu) == 0;
+}
+
 static rb_status all_rows(history_state *r, rb_message *why)
 {
     const rb_rolling_observer *o = r->observer;
@@ -165,6 +183,8 @@ static rb_status all_rows(history_state *r, rb_message *why)
         }
         if (r->found && r->found->rows.jumped == r->history->n)
             rb_rolling_row_note_jump(r);
+        if (k + 1 < r->rows && r->model->rows.not_unique == 0 && is_not_unique(r->model))
+            r->model->rows.not_unique = r->history->n;
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }

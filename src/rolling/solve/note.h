@@ -27,7 +27,7 @@ enum { RB_NOTE_NO_MEMORY = -1 };
  * result. */
 enum {
     RB_NOTES_ON_MODELS = 9,
-    RB_NOTES_ON_STEPS = 3,
+    RB_NOTES_ON_STEPS = 4,
     RB_NOTES_ON_ELEMENTS = 9,
     RB_NOTES_ON_INPUTS = 7,
     RB_NOTES_ON_ANSWERS = 9

@@ -6,7 +6,7 @@
 
 /* Notes on results that must be read with care, one line each, every one of which the state
  * as solved bears out (src/rolling/solve/notes_on_*.c). */
-enum { RB_ROLLING_NOTES = 55, RB_ROLLING_NOTE_LENGTH = 320 };
+enum { RB_ROLLING_NOTES = 56, RB_ROLLING_NOTE_LENGTH = 320 };
 
 /* The notes on all rows: how many have a note of each kind, the first of them from 0, and what it
  * says of that one. */
@@ -37,7 +37,7 @@ typedef struct {
 rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
                                                const rb_rolling_solution *s);
 /* One more, of a kind of the caller's from RB_ROLLING_OWN_NOTES on. */
-enum { RB_ROLLING_OWN_NOTES = 37 };
+enum { RB_ROLLING_OWN_NOTES = 38 };
 void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text);
 
 /* Adds the notes of a row to those on all rows (rb_rolling_study_notes). */

@@ -32,12 +32,8 @@ int rb_rolling_is_below_zero(double dissipation, double load)
  * hardens carries more with more slip. */
 static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    const double at_bound = 1.0 - 1e-9;
-    int held = s->stick;
+    const int held = rb_rolling_held(s->n, s->zone, s->p, s->q, s->mu, rc->mu);
 
-    for (int i = 0; i < s->n; i++)
-        held -= s->zone[i] == RB_ZONE_STICK &&
-                fabs(s->q[i]) >= at_bound * (s->mu ? s->mu[i] : rc->mu) * s->p[i];
     if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 || s->yielding > 0 ||
         !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))
         return 0;

@@ -66,8 +66,22 @@ static int jumps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *
                rb_unit_name(s->units, "N/mm"));
 }
 
+/* Of the last row the note on the answer says it. */
+static int not_unique_row(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->rows.not_unique > 0 &&
+           rb_rolling_write_note(
+               text,
+               "In step %d nothing is held, and elements slide towards both sides: its %s is not "
+               "unique, a range of it gives the same tractions, and slip and friction work with "
+               "it.",
+               s->rows.not_unique, s->formulation == RB_STATIC ? "shift" : "creepage");
+}
+
 const rb_rolling_note rb_rolling_notes_on_steps[] = {
     {"short-memory", short_memory, RB_NOTE_EVERYWHERE},
     {"row-of-steps", row_of_steps, RB_NOTE_EVERYWHERE},
     {"jumps", jumps, RB_NOTE_EVERYWHERE},
+    {"not-unique-row", not_unique_row, RB_NOTE_EVERYWHERE},
 };
