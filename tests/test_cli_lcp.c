@@ -411,6 +411,9 @@ TEST(solutions_are_proved)
     CHECK_RUN(lcp("--prove good"), 0, out, "scaled\tsolver\tproof\twithin\n");
     CHECK_RUN(lcp("--prove --solution good"), 0, out, "file\ti\tz\tw\twithin\n");
     CHECK_RUN(lcp("--prove ray"), 1, err, "ray: proved: there is no solution");
+    write_file("large", "1 1e-320 -1\n"); /* z = 1e320 */
+    CHECK_RUN(lcp("--prove large"), 1, err, "large: not proved: z is not finite");
+    CHECK_RUN(lcp("--prove --json large"), 1, out, "\"reason\": \"z is not finite\"");
     CHECK_RUN(lcp("--prove --json ray"), 1, out, "\"status\": \"no solution\"");
 }
 

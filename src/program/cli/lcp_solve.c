@@ -62,6 +62,11 @@ cli_exit cli_lcp_end(const lcp_options *o, lcp_result *r, rb_status s)
 cli_exit cli_lcp_say_proof(lcp_result *r, rb_status s, cli_exit code)
 {
     char text[400];
+    if (s == RB_EINVAL) { /* the problem was read: z has overflown */
+        r->proof.reason = "z is not finite";
+        fprintf(stderr, "rollbem: %s: not proved: %s\n", r->file, r->proof.reason);
+        return code;
+    }
     if (s < 0)
         return cli_lcp_invalid(r, s, &(rb_message){.text = "out of memory"});
     fprintf(stderr, "rollbem: %s: %s\n", r->file,
