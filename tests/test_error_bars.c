@@ -735,6 +735,49 @@ TEST(bars_hold_on_two_patches)
                 -0.243056, 0.141751, 0.00439486);
 }
 
+/* Under a square corner the pressure is infinite: the bar of its largest value is unknown, and no
+ * accuracy asks for it.  It used to be 1.5 of the value on any number of elements.  A punch that
+ * is pressed so little that its ends are open has one. */
+TEST(a_corner_of_a_punch_leaves_the_largest_pressure_without_a_bar)
+{
+    char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
+    assert_non_null(mkdtemp(folder));
+    snprintf(line, sizeof line, "%s/punch.txt", folder);
+    FILE *file = NOT_NULL(fopen(line, "w"));
+    for (int k = -40; k <= 40; k++)
+        fprintf(file, "%.10g %.10g\n", 0.05 * k, gsl_pow_2(0.05 * k) / 1e4);
+    fclose(file);
+    for (int presses = 0; presses < 2; presses++) {
+        snprintf(line, sizeof line,
+                 " --gap %s/punch.txt --mesh punch --support halfplane --load %d --force-ratio 0.4"
+                 " --contact-elements 40",
+                 folder, presses ? 1000 : 10);
+        held_case *c = NOT_NULL(case_of(line));
+        const rb_rolling_case *rc = &rb_case_resolved(c)->rc;
+        rb_rolling_solution s, fine, accurate;
+        rb_rolling_errors e;
+        CHECK_OK(rb_rolling_solve_with_errors(rc, &s, &e, &message));
+        assert_int_equal(isnan(e.scalar.max_pressure), presses);
+        const rb_rolling_case finer_rc = with(*rc, "contact-elements 320");
+        CHECK_OK(rb_rolling_solve(&finer_rc, &fine, &message));
+        if (presses)
+            CHECK_MAX(5.0 * s.max_pressure, fine.max_pressure, "p0 grows");
+        else
+            CHECK_ABS(s.max_pressure, fine.max_pressure, e.scalar.max_pressure, "p0");
+        CHECK_ABS(s.approach, fine.approach, e.scalar.approach, "approach");
+        CHECK_ABS(s.stick_from, fine.stick_from, e.scalar.stick_from, "stick");
+        rb_rolling_solution_free(&fine);
+        rb_rolling_solution_free(&s);
+        int elements = 0;
+        CHECK_OK(rb_rolling_solve_to_accuracy(rc, 1e-2, &accurate, &e, &elements, &message));
+        if (presses)
+            CHECK_MAX(elements, 320, "elements");
+        rb_rolling_solution_free(&accurate);
+    }
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    assert_int_equal(system(line), 0);
+}
+
 /* What was refused has no solution and no error bars, not what was in them before. */
 TEST(a_refusal_sets_every_output)
 {

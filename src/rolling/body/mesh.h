@@ -54,6 +54,9 @@ double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double
  * surface is pressed on one side of them only. */
 double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                   double times);
+/* 1: a punch presses with an end of its table, a square corner, where the pressure is infinite
+ * like 1/sqrt(distance) or another power: that of the last element says nothing of it. */
+int rb_rolling_presses_with_end(const rb_rolling_case *rc, const rb_rolling_solution *s);
 
 /* ---- mesh_graded.c -------------------------------------------------------------- */
 

@@ -157,7 +157,7 @@ static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution 
 
 static int punch_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    return rc->mesh == RB_MESH_PUNCH && s->n > 0 && (s->p[0] > 0.0 || s->p[s->n - 1] > 0.0) &&
+    return rb_rolling_presses_with_end(rc, s) &&
            rb_rolling_write_note(
                text, "The punch presses with a corner, where the pressure is infinite: p0 is "
                      "the mean of the last element and grows with their number.");

@@ -8,28 +8,53 @@
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 
+/* Whether an element is one of the last two that stick, or the first that slips, at a limit of
+ * stick whose pressure is known otherwise: they err by what they do not show beside it. */
+static int is_beside_limit(const rb_rolling_case *rc, const rb_rolling_tractions *of, int i)
+{
+    rb_rolling_stick_limit limit;
+
+    for (int side = -1; side <= 1; side += 2)
+        for (int last = i - 1; last <= i + 1; last++)
+            if (last >= 0 && last < of->n && rb_rolling_stick_limit_of(rc, of, last, side, &limit))
+                return 1;
+    return 0;
+}
+
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
- * Hertz's ellipse. */
-static void set_peak(const rb_rolling_mesh *mesh, const double *p, const rb_rolling_run *run,
+ * Hertz's ellipse.  Or the pressure at a limit of stick. */
+static void set_peak(const rb_rolling_model *model, const rb_rolling_run *run,
                      rb_rolling_patch *patch)
 {
-    int k = run->first;
+    const rb_contact_state *state = &model->state;
+    const double *x = model->bodies.f.x, *p = state->p;
+    const rb_rolling_tractions of = {state->n, state->zone, x, p, state->q};
+    int k = -1;
 
     for (int i = run->first; i <= run->last; i++)
-        k = p[i] > p[k] ? i : k;
+        if ((k < 0 || p[i] > p[k]) && !is_beside_limit(model->rc, &of, i))
+            k = i;
     patch->max_pressure = p[k];
-    patch->peak = rb_rolling_midpoint(mesh, k);
-    if (k == 0 || k == mesh->n - 1)
-        return;
-    const double d[2] = {rb_rolling_midpoint(mesh, k - 1) - rb_rolling_midpoint(mesh, k),
-                         rb_rolling_midpoint(mesh, k + 1) - rb_rolling_midpoint(mesh, k)};
-    const double f[2] = {gsl_pow_2(p[k - 1]) - gsl_pow_2(p[k]),
-                         gsl_pow_2(p[k + 1]) - gsl_pow_2(p[k])};
-    double rise, at;
-    if (!rb_rolling_vertex(d, f, &rise, &at))
-        return;
-    patch->max_pressure = sqrt(gsl_pow_2(p[k]) + rise);
-    patch->peak += at;
+    patch->peak = x[k];
+    if (k > 0 && k < of.n - 1 && !is_beside_limit(model->rc, &of, k - 1) &&
+        !is_beside_limit(model->rc, &of, k + 1)) {
+        const double d[2] = {x[k - 1] - x[k], x[k + 1] - x[k]};
+        const double f[2] = {gsl_pow_2(p[k - 1]) - gsl_pow_2(p[k]),
+                             gsl_pow_2(p[k + 1]) - gsl_pow_2(p[k])};
+        double rise, at;
+        if (rb_rolling_vertex(d, f, &rise, &at)) {
+            patch->max_pressure = sqrt(gsl_pow_2(p[k]) + rise);
+            patch->peak += at;
+        }
+    }
+    rb_rolling_stick_limit limit;
+    for (int i = run->first; i <= run->last; i++)
+        for (int side = -1; side <= 1; side += 2)
+            if (rb_rolling_stick_limit_of(model->rc, &of, i, side, &limit) &&
+                limit.pressure > patch->max_pressure) {
+                patch->max_pressure = limit.pressure;
+                patch->peak = limit.at;
+            }
 }
 
 double rb_rolling_peak_pressure(const rb_rolling_model *model)
@@ -39,7 +64,7 @@ double rb_rolling_peak_pressure(const rb_rolling_model *model)
     double p0 = 0.0;
 
     while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
-        set_peak(&model->mesh, model->state.p, &run, &patch);
+        set_peak(model, &run, &patch);
         p0 = fmax(p0, patch.max_pressure);
     }
     return p0;
@@ -72,7 +97,7 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
         }
         patch.contact = run.last - run.first + 1;
         patch.bounded = run.bounded;
-        set_peak(&model->mesh, state->p, &run, &patch);
+        set_peak(model, &run, &patch);
         s->contact_from = s->patches ? s->contact_from : patch.from;
         s->contact_to = patch.to;
         s->max_pressure = fmax(s->max_pressure, patch.max_pressure);
@@ -110,4 +135,9 @@ double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_so
                         rc, rb_unit_stored(s->units, "mm", s->patch[k].from) + element,
                         rb_unit_stored(s->units, "mm", s->patch[k].to) - element, element, times));
     return most;
+}
+
+int rb_rolling_presses_with_end(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    return rc->mesh == RB_MESH_PUNCH && s->n > 0 && (s->p[0] > 0.0 || s->p[s->n - 1] > 0.0);
 }

@@ -50,6 +50,23 @@ static inline int rb_rolling_vertex(const double d[2], const double f[2], double
  * a patch of RB_ROLLING_ALIGNED_LEAST equal elements or more.  p: n. */
 double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                const double *p, int outer, int side);
+/* stick_limit.c: tractions of elements at x; n each. */
+typedef struct {
+    int n;
+    const int *zone;
+    const double *x, *p, *q;
+} rb_rolling_tractions;
+/* The largest pressure of a stick zone between its third element from a limit and the limit itself,
+ * and where it is. */
+typedef struct {
+    double pressure, at;
+} rb_rolling_stick_limit;
+/* (E4) Of the limit towards `side` (-1 left, +1 right) of element `last`, beyond which A slips.
+ * Returns 0 where it tells nothing: last is not such an element, the stick zone is shorter than
+ * seven elements, friction does not feed back on the pressure there, or the friction that is left
+ * ends too far from where the mesh has the limit. */
+int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tractions *of, int last,
+                              int side, rb_rolling_stick_limit *limit);
 /* Finds the next patch from element `at` on; returns 0 if there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);

@@ -104,13 +104,24 @@ double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepag
 
 /* ---- Results of a solution --------------------------------------------------------- */
 
-/* The largest pressure [stress] of the stick zones of fewer than four elements over which
- * slip turns round: no mesh tells then where in them friction changes its sign.  0: there
- * are none. */
-static double pressure_of_unresolved_stick(const rb_rolling_solution *s)
+/* Stick zones over which slip turns round and which the mesh does not resolve. */
+typedef struct {
+    double pressure; /* the largest one in those of fewer than four elements [stress]; 0: none */
+    double risen;    /* the largest one that shorter elements may find in one [stress]; 0: none */
+    double rise;     /* by which it is higher [stress] */
+} unresolved_stick;
+
+/* Friction jumps there by 2 mu p, and between unlike bodies the pressure has a logarithm: it rises
+ * by (2/pi) mu beta p where the zone is shorter by the factor e.  One of m elements is m - 1 long
+ * at least; one of a single element is looked at on elements ten times shorter.  From seven on its
+ * limits are known (rb_rolling_stick_limit_of). */
+static unresolved_stick find_unresolved_stick(const rb_rolling_case *rc,
+                                              const rb_rolling_solution *s)
 {
+    enum { SHOWS_NO_PLACE = 4, SHOWS_NO_LIMIT = 7 };
+    const double slope = M_2_PI * rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs);
     int before = RB_ZONE_SEPARATED, stuck = 0;
-    double most = 0.0;
+    unresolved_stick found = {0.0, 0.0, 0.0};
 
     for (int i = 0; i < s->n; i++) {
         if (s->zone[i] == RB_ZONE_STICK) {
@@ -118,13 +129,22 @@ static double pressure_of_unresolved_stick(const rb_rolling_solution *s)
             continue;
         }
         if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK && s->zone[i] != before &&
-            stuck < 4)
+            stuck < SHOWS_NO_LIMIT) {
+            double most = 0.0;
             for (int j = i - stuck - 1; j <= i; j++)
                 most = fmax(most, s->p[j]);
+            const double rise = slope * most * (stuck < 2 ? M_LN10 : log(stuck / (stuck - 1.0)));
+            if (stuck < SHOWS_NO_PLACE)
+                found.pressure = fmax(found.pressure, most);
+            if (most + rise > found.risen) {
+                found.risen = most + rise;
+                found.rise = rise;
+            }
+        }
         before = s->zone[i];
         stuck = 0;
     }
-    return most;
+    return found;
 }
 
 static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
@@ -208,12 +228,15 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
     return hidden;
 }
 
-/* The largest pressure [stress] to which that of a stick zone, smooth there, goes on at its limits.
- * Between unlike bodies it falls from there with an infinite slope where they slip, and elements
- * do not show how high it was.  0: the mesh tells it nowhere. */
+/* The largest pressure [stress] to which that of a stick zone, smooth there, goes on at limits
+ * where the solution does not say it (rb_rolling_stick_limit_of).  Between unlike bodies it falls
+ * from there with an infinite slope where they slip, and elements do not show how high it was.  0:
+ * the mesh tells it nowhere. */
 static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     enum { SECOND = 2, LAST = 4 }; /* the first one errs by what it does not show beside it */
+    const rb_rolling_tractions of = {s->n, s->zone, s->x, s->p, s->q};
+    rb_rolling_stick_limit known;
     double most = 0.0;
 
     if (!rb_rolling_couples(rc))
@@ -225,7 +248,7 @@ static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_ro
                          s->zone[beyond] > RB_ZONE_STICK;
             for (int k = 0; k <= LAST && sticks; k++)
                 sticks = s->zone[i - k * side] == RB_ZONE_STICK;
-            if (!sticks)
+            if (!sticks || rb_rolling_stick_limit_of(rc, &of, i, side, &known))
                 continue;
             const int second = i - SECOND * side;
             const double slope = (s->p[second] - s->p[last]) / (s->x[second] - s->x[last]);
@@ -248,14 +271,14 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     const double rounding = fmax(s->residual, rc->contact.tol);
     const double a = isnan(s->hertz_half_width) ? s->half_width : s->hertz_half_width;
     const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
-    const double unresolved = pressure_of_unresolved_stick(s);
+    const unresolved_stick unresolved = find_unresolved_stick(rc, s);
     double missed, missed_mu; /* of tables that are finer than the elements */
     if (rb_rolling_missed_by_elements(rc, &missed, &missed_mu) != RB_OK)
         return NAN;
     const int force_given = rb_rolling_force_is_given(rc);
     const double friction =
         force_given ? 0.0
-        : unresolved > 0.0
+        : unresolved.pressure > 0.0
             ? rb_rolling_largest_mu(rc) * s->max_pressure *
                   rb_rolling_longest_element(s->n, s->zone, s->h)
             : fmax(hidden.friction, friction_of_short_stick(rc, s)) + missed_mu * s->normal_load;
@@ -279,17 +302,14 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded
                                    ? 0.5 * rb_rolling_longest_element(s->n, s->zone, s->h)
                                    : 0.0);
-    case RB_SCALE_PRESSURE: {
-        /* friction jumps by 2 mu p, and between unlike bodies the pressure has a logarithm
-         * there; on elements ten times shorter it rises by so much */
-        const double rise = M_LN10 * M_2_PI * rb_rolling_largest_mu(rc) *
-                            fabs(rb_rolling_derive(rc).dundurs) * unresolved;
+    case RB_SCALE_PRESSURE:
+        if (rb_rolling_presses_with_end(rc, s))
+            return NAN; /* infinite */
         return rounding * s->max_pressure +
-               (of_stress ? rise
-                          : fmax(0.0, fmax(unresolved + rise, pressure_at_limits_of_stick(rc, s)) -
+               (of_stress ? unresolved.rise
+                          : fmax(0.0, fmax(unresolved.risen, pressure_at_limits_of_stick(rc, s)) -
                                           s->max_pressure)) +
                rb_rolling_rise_in_patches(rc, s, 10.0) + missed;
-    }
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */
         const double driven =
