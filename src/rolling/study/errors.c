@@ -168,11 +168,15 @@ static int grows_from_stick(const rb_rolling_case *rc, const rb_rolling_solution
 }
 
 /* Whether an element slips by no more than the slip changes from there to the next one: a
- * finer mesh may find that some of it sticks. */
+ * finer mesh may find that some of it sticks.  An elastic third body that rolls in always sticks at
+ * first: it is not sheared yet, and the bound of friction begins with an infinite slope. */
 static int may_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
 {
     const double own = slip_of(rc, s, i);
 
+    if (rc->formulation == RB_STEADY && rc->interlayer_tangential > 0.0 &&
+        s->zone[i] > RB_ZONE_STICK && (i + 1 == s->n || s->zone[i + 1] == RB_ZONE_SEPARATED))
+        return 1;
     for (int j = i - 1; j <= i + 1; j += 2) {
         if (j < 0 || j >= s->n || s->zone[j] == RB_ZONE_SEPARATED)
             continue;
@@ -214,6 +218,7 @@ typedef struct {
 static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     hidden_stick hidden = {0.0, rb_rolling_longest_element(s->n, s->zone, s->h)};
+    const double element = hidden.length;
     double farthest = 0.0;
 
     for (int i = 0; i < s->n; i++) {
@@ -221,7 +226,9 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
             continue;
         const double left = s->x[i] - 0.5 * s->h[i], right = s->x[i] + 0.5 * s->h[i];
         hidden.friction = fmax(hidden.friction, fabs(s->q[i]) * s->h[i]);
-        if (s->stick > 0)
+        if (s->stick == 0)
+            farthest = element; /* a zone up to two long hides between midpoints and an edge */
+        else
             farthest = fmax(farthest, fmax(s->stick_from - left, right - s->stick_to));
     }
     hidden.length += farthest;
@@ -298,10 +305,12 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_CREEPAGE:
         return rounding * fmax(strain, fabs(s->creepage));
     case RB_SCALE_WIDTH:
-        /* found within an element: where bodies relax the pressure is no power there */
-        return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded
-                                   ? 0.5 * rb_rolling_longest_element(s->n, s->zone, s->h)
-                                   : 0.0);
+        /* found within an element, by a power law as well as equal elements show it, which ends
+         * where it will: where bodies relax the pressure is no power there */
+        return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded ? 0.5
+                               : rc->mesh == RB_MESH_UNIFORM              ? 0.1
+                                                                          : 0.0) *
+                                  rb_rolling_longest_element(s->n, s->zone, s->h);
     case RB_SCALE_PRESSURE:
         if (rb_rolling_presses_with_end(rc, s))
             return NAN; /* infinite */
