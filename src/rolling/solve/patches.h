@@ -56,8 +56,8 @@ typedef struct {
     const int *zone;
     const double *x, *p, *q;
 } rb_rolling_tractions;
-/* The largest pressure of a stick zone between its third element from a limit and the limit itself,
- * and where it is. */
+/* The largest pressure of a stick zone between its fourth element from a limit and the limit
+ * itself, and where it is. */
 typedef struct {
     double pressure, at;
 } rb_rolling_stick_limit;

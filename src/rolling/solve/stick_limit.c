@@ -5,9 +5,11 @@
 
 #include <gsl/gsl_math.h>
 
-/* Of a stick zone the two elements at its limit are disturbed, and the same at its other one: the
- * three behind them are trusted. */
-enum { DISTURBED = 2, TRUSTED = 3, LEAST = 2 * DISTURBED + TRUSTED };
+/* Of a stick zone the two elements at either limit are disturbed by up to 1.5 %, and the three
+ * behind them are trusted.  The third one still is by 1e-4, up or down as the limit lies in an
+ * element, which the parabola makes eight times as much: in a long zone, whose parabola goes far
+ * enough, they begin with the fourth. */
+enum { DISTURBED = 2, TRUSTED = 3, LEAST = 2 * DISTURBED + TRUSTED, LONG = 20 };
 
 /* A parabola through three points, t = 0 first: y = y0 + slope t + bend t^2. */
 typedef struct {
@@ -36,18 +38,20 @@ static double zero_of(const parabola *of)
 int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tractions *of, int last,
                               int side, rb_rolling_stick_limit *limit)
 {
-    const int slips = last + side, farthest = last - (LEAST - 1) * side;
+    const int slips = last + side;
+    int stuck = 0;
 
-    if (slips < 0 || slips >= of->n || farthest < 0 || farthest >= of->n ||
-        of->zone[slips] <= RB_ZONE_STICK)
+    if (slips < 0 || slips >= of->n || of->zone[slips] <= RB_ZONE_STICK)
         return 0;
-    for (int k = 0; k < LEAST; k++)
-        if (of->zone[last - k * side] != RB_ZONE_STICK)
-            return 0;
+    for (int i = last; i >= 0 && i < of->n && of->zone[i] == RB_ZONE_STICK && stuck < LONG;
+         i -= side)
+        stuck++;
+    if (stuck < LEAST)
+        return 0;
     const double beta = rb_rolling_derive(rc).dundurs;
     if (beta == 0.0 || rc->interlayer_normal > 0.0 || rc->interlayer_tangential > 0.0)
         return 0;
-    const int from = last - DISTURBED * side;
+    const int from = last - (stuck < LONG ? DISTURBED : DISTURBED + 1) * side;
     const double ratio = of->q[slips] / of->p[slips], x = of->x[from];
     const double exponent = 0.5 - side * atan(beta * ratio) / M_PI;
     const double unused = ratio * of->p[from] - of->q[from]; /* of the bound, not 0 */

@@ -226,9 +226,9 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
             continue;
         const double left = s->x[i] - 0.5 * s->h[i], right = s->x[i] + 0.5 * s->h[i];
         hidden.friction = fmax(hidden.friction, fabs(s->q[i]) * s->h[i]);
-        if (s->stick == 0)
+        if (s->stick == 0 && rb_rolling_largest_mu(rc) > 0.0)
             farthest = element; /* a zone up to two long hides between midpoints and an edge */
-        else
+        else if (s->stick > 0)
             farthest = fmax(farthest, fmax(s->stick_from - left, right - s->stick_to));
     }
     hidden.length += farthest;
