@@ -625,20 +625,25 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
     return relative[worst].error;
 }
 
-/* Largest part of the error that the contact elements and the boundary have. */
+/* Largest part of the error that the contact elements and the boundary have, and that of the
+ * pressure which the contact elements have. */
 typedef struct {
     int elements;
-    double contact, boundary;
+    double contact, boundary, pressure;
 } estimate;
 
-/* The highest order at which the contact's part has fallen since the first round.  A bar can be
- * too small by chance, and is no proof of a lower order: that of twice the first one.  INFINITY:
- * the elements are as many as there. */
-static double order_of_rounds(const estimate *first, const estimate *now)
+/* Whether the pressure could come to an error on so many elements, at the highest order at which
+ * its part has fallen since the first round.  A bar can be too small by chance, and is no proof of
+ * a lower order: that of twice the first one.  Bars of the other results may fall at once, where
+ * a short zone of stick is resolved. */
+static int pressure_could_come(const estimate *first, const estimate *now, double error,
+                               double elements)
 {
-    return now->elements > first->elements ? log(2.0 * first->contact / now->contact) /
-                                                 log((double)now->elements / first->elements)
-                                           : INFINITY;
+    if (now->elements <= first->elements || !(now->pressure > error))
+        return 1;
+    const double order =
+        log(2.0 * first->pressure / now->pressure) / log((double)now->elements / first->elements);
+    return order > 0.0 && log(now->pressure / error) < order * log(elements / now->elements);
 }
 
 /* Makes the elements of the contact and those of the boundary finer: each until its part of
@@ -663,14 +668,11 @@ static int refine(double accuracy, const estimate *first, const estimate *now, i
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
     const double for_contact = fmax(0.5 * accuracy, accuracy - now->boundary);
     const double for_boundary = fmax(0.5 * accuracy, accuracy - now->contact);
-    const double excess = fmax(1.0, now->contact / for_contact);
-    const double n_factor = pow(excess, 1.0 / order);
+    const double n_factor = fmax(1.0, pow(now->contact / for_contact, 1.0 / order));
     const double outer_factor = fmax(1.0, sqrt(now->boundary / for_boundary));
-    const double seen = order_of_rounds(first, now);
 
-    if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
-        return 0;
-    if (excess > 1.0 && !(seen > 0.0 && log(excess) < seen * log(most / n)))
+    if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary ||
+        !pressure_could_come(first, now, for_contact, most))
         return 0;
     const double finer = fmin(most / n, fmin(step, n_factor > 1.0 ? spare * n_factor : 1.0));
     rc->contact_elements = (int)(finer * n + 0.5);
@@ -723,7 +725,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         if (worst <= accuracy)
             return RB_OK;
         now = (estimate){*elements, worst_relative(rc, solution, &parts.contact.scalar, &of_part),
-                         worst_relative(rc, solution, &parts.boundary.scalar, &of_part)};
+                         worst_relative(rc, solution, &parts.boundary.scalar, &of_part),
+                         parts.contact.scalar.max_pressure / solution->max_pressure};
         first = round == 1 ? now : first;
     } while (stood < 2 &&
              refine(accuracy, &first, &now, second_order && !solution->equal_instead, &refined));
