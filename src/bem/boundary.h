@@ -103,8 +103,8 @@ rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_nor
 rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
                                             const double *tangential);
 
-/* Adds a matrix, 2m x 2n, to that of f.  RB_EINVAL: f does not store one. */
-rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F);
+/* Adds w, 2m, to column j of the matrix of f.  RB_EINVAL: f does not store one. */
+rb_status rb_bem_flexibility_add_column(rb_bem_flexibility *f, int j, const double *w);
 /* To elements `scale` times as long, wherever they stand, of half-planes: the displacement by a
  * logarithm of the distance adds `along` [1/stress] times the length of a loaded element to F_NN
  * and F_TT.  ends: as of rb_bem_flexibility_surface.  RB_EINVAL: f does not store a matrix. */

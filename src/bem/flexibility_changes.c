@@ -50,14 +50,16 @@ void rb_bem_flexibility_copy_points(const rb_bem_flexibility *from, rb_bem_flexi
     memcpy(to->w0, from->w0, 2 * m * sizeof *to->w0);
 }
 
-rb_status rb_bem_flexibility_add_matrix(rb_bem_flexibility *f, const double *F)
+rb_status rb_bem_flexibility_add_column(rb_bem_flexibility *f, int j, const double *w)
 {
+    const size_t rows = 2 * (size_t)f->m;
     double *own = f->data;
 
     if (!rb_bem_flexibility_stored(f))
         return RB_EINVAL;
-    for (size_t k = 0; k < 4 * (size_t)f->m * (size_t)f->n; k++)
-        own[k] += F[k];
+    own += (size_t)j * rows;
+    for (size_t i = 0; i < rows; i++)
+        own[i] += w[i];
     return RB_OK;
 }
 

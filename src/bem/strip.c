@@ -68,19 +68,29 @@ static double square(double complex z)
     return gsl_pow_2(creal(z)) + gsl_pow_2(cimag(z));
 }
 
-/* Lambda without cancellation far away, where it is a series. */
+/* Lambda, far away without cancellation: a series.  d = -y, but the angle of an edge point within
+ * the strip is -pi, which is that of y = +0. */
 static double complex log_ratio(double complex z, double h)
 {
     const double a = 0.5 * h, rho = square(z);
+    rb_view_angles v = {.X = creal(z), .d = -cimag(z), .rho = rho};
+
     if (rho > gsl_pow_2(rb_far.reach * a)) {
-        rb_view_angles v = {.X = creal(z), .d = -cimag(z)};
         rb_turn_far(a, rb_far.terms, h / rho, &v);
         return complex_of(v.Lam, v.Th);
     }
-    if (rho > gsl_pow_2(4.0 * a))
-        return 2.0 * catanh(a / z);
-    return clog(complex_of(creal(z) + 0.5 * h, cimag(z))) -
-           clog(complex_of(creal(z) - 0.5 * h, cimag(z)));
+    return complex_of(rb_Lam_near(a, &v), -rb_atan2(h * cimag(z), rho - a * a));
+}
+
+/* ln a + ln b, distances in the unit, from Lambda = ln a - ln b. */
+static double complex log_product(double complex z, double h, double unit, double complex lambda)
+{
+    const double scale = 1.0 / unit;
+    const double complex a = complex_of((creal(z) + 0.5 * h) * scale, cimag(z) * scale),
+                         b = complex_of((creal(z) - 0.5 * h) * scale, cimag(z) * scale);
+
+    return complex_of(0.5 * rb_log(square(a) * square(b)),
+                      2.0 * rb_atan2(cimag(a), creal(a)) - cimag(lambda));
 }
 
 /* Lambda' = 1/a - 1/b; the compiler's own division guards against overflow, and is slow. */
@@ -96,9 +106,7 @@ rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z)
 {
     const double h = strip->h, unit = strip->unit, C = 1.0 / (4.0 * M_PI * strip->shear);
     const double complex at = below(strip, z), lambda = log_ratio(at, h);
-    const double complex sum = clog(complex_of(creal(at) + 0.5 * h, cimag(at)) / unit) +
-                               clog(complex_of(creal(at) - 0.5 * h, cimag(at)) / unit);
-    const double complex L = at * lambda + 0.5 * h * sum - h;
+    const double complex L = at * lambda + 0.5 * h * log_product(at, h, unit, lambda) - h;
 
     return (rb_strip_answer){-C * (strip->kappa * L + conj(L)),
                              C * strip->along * strip->along *

@@ -2,6 +2,7 @@
  * constant strips: the half-plane of Flamant (B6), with fading memory (V2), and the layer
  * on a base (L3). */
 #include "bem/internal.h"
+#include "bem/kernels.h"
 #include "bem/layer.h"
 #include "bem/surface.h"
 
@@ -59,23 +60,22 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
 
 /* ---- One strip --------------------------------------------------------------------- */
 
-/* 2 X atanh(t) at t = b/X, |t| <= 1/4, over 2 b: 1 + t^2/3 + t^4/5 + ..., to rounding. */
-static inline double atanh_ratio(double t)
+/* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point, |X| >= 4 b:
+ * the difference of its two large parts is formed as X ln((X + b)/(X - b)) = 2 b (1 + t^2/3 + t^4/5
+ * +
+ * ...), t = b/X, to rounding.  Without branches, so that loops are vectorised. */
+RB_INLINE double strip_log_far(double X, double b, double d)
 {
-    static const double odd[] = {1.0 / 27, 1.0 / 25, 1.0 / 23, 1.0 / 21, 1.0 / 19,
-                                 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9,
-                                 1.0 / 7,  1.0 / 5,  1.0 / 3,  1.0};
-    const double u = t * t;
-    double sum = 0.0;
-
-    for (int k = u < 5e-4 ? 8 : 0; k < 14; k++) /* u^6/13 < 2e-21 */
-        sum = odd[k] + u * sum;
-    return sum;
+    const double t = b / X, u = t * t, uu = u * u, uuuu = uu * uu;
+    /* in pairs: a chain of thirteen would wait for each product */
+    const double low = (1.0 / 3 + u * (1.0 / 5)) + uu * (1.0 / 7 + u * (1.0 / 9)),
+                 middle = (1.0 / 11 + u * (1.0 / 13)) + uu * (1.0 / 15 + u * (1.0 / 17)),
+                 high = (1.0 / 19 + u * (1.0 / 21)) + uu * (1.0 / 23 + u * (1.0 / 25));
+    const double rise = u * (low + uuuu * (middle + uuuu * (high + uuuu * (1.0 / 27))));
+    return b * (2.0 * rise + rb_log((X - b) / d * ((X + b) / d)));
 }
 
-/* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point.
- * Near: [s ln|s/d| - s].  Far: the difference of its two large parts is formed as
- * X ln((X + b)/(X - b)). */
+/* The same anywhere.  Near: [s ln|s/d| - s]. */
 static inline double strip_log(double X, double b, double d)
 {
     const double s1 = X - b, s2 = X + b;
@@ -84,7 +84,7 @@ static inline double strip_log(double X, double b, double d)
         const double l2 = s2 != 0.0 ? s2 * log(fabs(s2 / d)) : 0.0;
         return l2 - l1 - 2.0 * b;
     }
-    return b * (2.0 * (atanh_ratio(b / X) - 1.0) + log(s1 / d * (s2 / d)));
+    return strip_log_far(X, b, d);
 }
 
 /* int ln(sin z/z) ds, z = pi s/L, over a strip of half-length b whose midpoint lies X from the
@@ -170,20 +170,29 @@ static rb_status displacements(const rb_bem_surface *body, int n, const double *
                                const double *low, const double *high, const double *x, double *W)
 {
     const rb_bem_strip_kernel k = rb_bem_strip_kernel_of(body);
-    const size_t m = (size_t)points;
+    const size_t m = (size_t)points, alike = body->period > 0.0 || body->terms > 0 ? 0 : m;
 
     for (size_t j = 0; j < (size_t)n; j++) {
         double *N = W + j * 2 * m, *T = W + (j + (size_t)n) * 2 * m;
         const double b = 0.5 * (ends[j + 1] - ends[j]);
         if (rb_interrupted())
             return RB_INTERRUPTED;
+        /* most points are far from the strip: all of them as if they were, in a loop that is
+         * vectorised */
+        for (size_t i = 0; i < alike; i++) {
+            const double X = 0.5 * ((ends[j] - low[i]) + (ends[j + 1] - high[i]));
+            N[i] = k.K * k.slow * -strip_log_far(X, b, k.depth) + 2.0 * b * k.raised;
+            T[i] = copysign(2.0 * b * k.c * k.slow, -X);
+        }
         for (size_t i = 0; i < m; i++) {
-            const normal_entry e =
-                entry_of(&k, 0.5 * ((ends[j] - low[i]) + (ends[j + 1] - high[i])), b);
-            N[i] = e.p;
-            T[m + i] = e.p + 2.0 * b * k.sheared;
-            T[i] = e.q;
-            N[m + i] = -e.q;
+            const double X = 0.5 * ((ends[j] - low[i]) + (ends[j + 1] - high[i]));
+            if (i >= alike || fabs(X) < 4.0 * b) {
+                const normal_entry e = entry_of(&k, X, b);
+                N[i] = e.p;
+                T[i] = e.q;
+            }
+            T[m + i] = N[i] + 2.0 * b * k.sheared;
+            N[m + i] = -T[i];
         }
     }
     return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W) : RB_OK;

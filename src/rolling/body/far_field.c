@@ -222,33 +222,44 @@ int rb_rolling_far_field_matches(const rb_rolling_far_field *far, int elements)
 rb_status rb_rolling_far_field_add(const rb_rolling_far_field *far, rb_bem_flexibility *f)
 {
     const int n = far->n, m = f->m, loads = f->n;
-    const size_t rows = 2 * (size_t)m, columns = 2 * (size_t)loads;
-    rb_arena scratch = {0};
-    double *P = rb_arena_doubles(&scratch, (size_t)n, (size_t)m), /* weights at the places of f */
-        *at_points = rb_arena_doubles(&scratch, 2 * (size_t)n, columns),
-           *F = rb_arena_doubles(&scratch, rows, columns);
-
-    if (scratch.failed)
-        return rb_arena_done(&scratch, RB_ENOMEM);
-    for (int i = 0; i < m; i++) {
+    struct {
+        int first;
         double weight[ORDER];
-        const int first = weights_at(far, f->x[i], weight);
-        memcpy(P + first + (size_t)i * (size_t)n, weight, sizeof weight);
+    } *at = calloc((size_t)m, sizeof *at); /* of the polynomials at the places of f */
+    double *column = rb_alloc(2 * (size_t)m, 1), at_points[2 * (POINTS + 2)];
+    rb_status s = at && column ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i < m && s == RB_OK; i++)
+        at[i].first = weights_at(far, f->x[i], at[i].weight);
+    /* A force on an element is one on the four points around it, and moves them all; each place
+     * moves as the four around it do. */
+    for (int j = 0; j < 2 * loads && s == RB_OK; j++) {
+        const int load = j % loads;
+        const double *F = far->F + (size_t)(j / loads * n + at[load].first) * 2 * (size_t)n;
+        for (int i = 0; i < 2 * n; i++) {
+            double sum = 0.0;
+            for (int k = 0; k < ORDER; k++)
+                sum += at[load].weight[k] * F[i + k * 2 * n];
+            at_points[i] = f->h[load] * sum;
+        }
+        for (int a = 0; a < 2; a++)
+            for (int i = 0; i < m; i++) {
+                const double *around = at_points + a * n + at[i].first;
+                double sum = 0.0;
+                for (int k = 0; k < ORDER; k++)
+                    sum += at[i].weight[k] * around[k];
+                column[a * m + i] = sum;
+            }
+        s = rb_bem_flexibility_add_column(f, j, column);
     }
-    /* F_ab = P' F_ab(points) P, times the lengths */
-    for (int b = 0; b < 2; b++)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, 2 * n, loads, n, 1.0,
-                    far->F + (size_t)(b * n) * 2 * (size_t)n, 2 * n, P, n, 0.0,
-                    at_points + (size_t)(b * loads) * 2 * (size_t)n, 2 * n);
-    for (int a = 0; a < 2; a++) {
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, m, 2 * loads, n, 1.0, P, n,
-                    at_points + a * n, 2 * n, 0.0, F + a * m, 2 * m);
-        cblas_dgemv(CblasColMajor, CblasTrans, n, m, 1.0, P, n, far->w0 + a * n, 1, 1.0,
-                    f->w0 + a * m, 1);
+    for (int i = 0; i < 2 * m && s == RB_OK; i++) {
+        const double *around = far->w0 + i / m * n + at[i % m].first;
+        for (int k = 0; k < ORDER; k++)
+            f->w0[i] += at[i % m].weight[k] * around[k];
+        if (loads == far->elements)
+            f->w0[i] += far->more[i];
     }
-    for (size_t j = 0; j < columns; j++)
-        cblas_dscal((int)rows, f->h[j % (size_t)loads], F + j * rows, 1);
-    for (int i = 0; i < 2 * m && loads == far->elements; i++)
-        f->w0[i] += far->more[i];
-    return rb_arena_done(&scratch, rb_bem_flexibility_add_matrix(f, F));
+    free(column);
+    free(at);
+    return s;
 }
