@@ -1,5 +1,6 @@
 /* The potential contact: the interval with elements, which must enclose the whole contact
  * (theory-solvers.md 5.1). */
+#include "rolling/body/far_field.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/internal.h"
 #include "rolling/solve/formulation.h"
@@ -245,6 +246,21 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
 
 /* ---- The search -------------------------------------------------------------------- */
 
+/* Where fitted elements are searched for by the far field of wheels, it also finds the contact on
+ * the next zone, whose places are hardly farther from each other: the boundaries need not be solved
+ * again.  On the zone after that it would be extrapolated too far. */
+static rb_status go_on_by_far_field(rb_rolling_model *model, rb_message *why)
+{
+    const int had = model->far != NULL;
+
+    rb_rolling_far_field_free(model->far);
+    model->far = NULL;
+    return !had && model->rc->mesh == RB_MESH_FITTED && model->bodies.F && model->mesh.n >= 8 &&
+                   rb_rolling_has_far_field(model->rc)
+               ? rb_rolling_far_field_create(model, 0, &model->far, why)
+               : RB_OK;
+}
+
 /* Grows the potential contact until enough separated elements stand at each end, or no
  * material is left; tightens it when the contact turns out to fill less than two thirds
  * of it; and takes more elements where they are too long for separate patches, unless a
@@ -304,6 +320,9 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         if (wider.from < zone.from || wider.to > zone.to) {
             too_narrow = fmax(too_narrow, width(zone));
             zone = wider;
+            const rb_status of_far = coarse ? go_on_by_far_field(model, why) : RB_OK;
+            if (of_far != RB_OK)
+                return of_far;
             continue;
         }
         if (is_open(model))
