@@ -162,6 +162,28 @@ TEST(the_solution_satisfies_the_equations)
     assert_true(assembly > 0.0 && factor > 0.0);
 }
 
+/* Lengths in other units, and moduli: A is as well conditioned. */
+TEST(the_condition_is_that_of_any_units)
+{
+    double rcond[2];
+    for (int k = 0; k < 2; k++) {
+        const double length = k ? 1e3 : 1.0;
+        double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
+        for (int i = 0; i < 6; i++)
+            ends[i] *= length;
+        const rb_bem_cylinder cylinder = {
+            .radius = 50.0 * length, .support = RB_BEM_ARC, .arc = 0.5};
+        rb_bem_material other = material;
+        other.shear *= k ? 1e-6 : 1.0;
+        OWNED(rb_bem_mesh) mesh;
+        held_system *system;
+        CHECK_OK(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL));
+        CHECK_OK(rb_bem_system_create(&mesh, other, &system, NULL));
+        rcond[k] = rb_bem_system_rcond(system);
+    }
+    CHECK_REL(rcond[1], rcond[0], 1e-6, "condition");
+}
+
 /* ---- Support (B6) ------------------------------------------------------------------ */
 
 /* A ring that is pulled outside, whose hole is held all around, or along x alone. */

@@ -757,6 +757,8 @@ TEST(increments_press_gradually)
     held_json *rows = run_json("--support halfplane --gap parabola --contact-elements 24 "
                                "--history history.txt --increments 5");
     CHECK_ABS(entry(json_object_get(rows, "history"), "substeps", 0), 5.0, 0.0, "steps of a row");
+    assert_int_equal(rollbem("--support halfplane --load 100 --mu 0 --increments 2"), 0);
+    assert_null(strstr(err, "of work")); /* there is no friction */
 }
 
 TEST(irregularities_are_of_transients)

@@ -827,7 +827,7 @@ TEST(doubtful_data_are_told)
     } wrong[] = {
         {"creep force_over_load\n1e-3 0.1\n2e-3 0.15\n3e-3 0.2\n", "", 1,
          "most forces have the sign of their creepage"},
-        {"creep force\n-1e-3 1e5\n-2e-3 2e5\n-3e-3 2e5\n", "", 1,
+        {"creep force\n-3e-3 2e5\n-1e-3 1e5\n-2e-3 1.9e5\n", "", 1,
          "the largest force is 833 times the load: check the units of the forces"},
         {"creep force_over_load\n-1e-3 0.1\n", "", 64, "expected at least 2 points for 1 number"},
         {"creep force_over_load\n-1e-3 0.1\n-2e-3 nan\n", "", 65, "t.tsv:3: expected a number"},

@@ -271,6 +271,23 @@ TEST(a_wheel_has_stress_up_to_its_circle)
     assert_int_equal(inside, 1);
 }
 
+/* Where normals are those of the rim and nothing rubs, the rim carries no shear along itself,
+ * however steep it is against the ground; just below it there is what the depth makes of p'. */
+TEST(a_rim_that_does_not_rub_carries_no_shear)
+{
+    const rb_rolling_case rc =
+        with(hertz(40), "support hub radius 100 half-width 15 normals surface gap exact");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    const double p0 = rb_rolling_peak_pressure(&model), depth = 0.02;
+    static const double x[] = {-12.3, -7.1, 5.3, 11.2};
+    for (int k = 0; k < 4; k++) {
+        const double s = x[k] / 100.0, c = sqrt(1.0 - s * s), r = 100.0 - depth;
+        const rb_rolling_stress in = at(&model, r * s, 100.0 - r * c);
+        const double shear = s * c * (in.syy - in.sxx) + (c * c - s * s) * in.sxy;
+        CHECK_ABS(shear, 0.0, 5e-3 * p0, "x = %g", x[k]);
+    }
+}
+
 /* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
 TEST(a_wide_grid_stays_on_the_lower_half)
 {

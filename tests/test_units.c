@@ -594,11 +594,13 @@ TEST(listed_units_are_read)
 TEST(what_is_no_unit_of_the_quantity_is_refused)
 {
     static const char *const bad[][2] = {
-        {"5mm", "mm2"},    {"5Nm", "N/mm"},     {"5mPa", "MPa"},    {"5 2mm", "mm"},
-        {"5g/J", "1/MPa"}, {"5mg/Nm", "1/MPa"}, {"5//mm", "1/MPa"}, {"5mm)", "mm"},
-        {"5(mm", "mm"},    {"5m^0.3", "mm"},    {"5m^", "mm"},      {"5rad", "-"},
-        {"1/2", "-"},      {"5 kN m", "N/mm"},  {"5MN", "N/mm"},    {"5lightyears", "mm"},
-        {"5inchs", "mm"},  {"5mm in", "mm"},    {"1e400mm", "mm"},  {"5°C", "K"}};
+        {"5mm", "mm2"},        {"5Nm", "N/mm"},    {"5mPa", "MPa"},
+        {"5 2mm", "mm"},       {"5g/J", "1/MPa"},  {"5mg/Nm", "1/MPa"},
+        {"5//mm", "1/MPa"},    {"5mm)", "mm"},     {"5(mm", "mm"},
+        {"5m^0.3", "mm"},      {"5m^", "mm"},      {"5rad", "-"},
+        {"1/2", "-"},          {"5 kN m", "N/mm"}, {"5MN", "N/mm"},
+        {"5lightyears", "mm"}, {"5inchs", "mm"},   {"5mm in", "mm"},
+        {"1e400mm", "mm"},     {"5°C", "K"},       {"1e-98 1e100N/mm", "N/mm"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         double value;
         int plain;
@@ -631,6 +633,7 @@ TEST(units_have_several_spellings)
                  {"5N/mm^2", "MPa", 5},
                  {"5N/mm²", "MPa", 5},
                  {"7kN/m", "N/mm", 7},
+                 {"1e-97 1e99N/mm", "N/mm", 100},
                  {"7 kN / m", "N/mm", 7},
                  {"3µm", "mm", 0.003},
                  {"2N/mm^3", "MPa/mm", 2},
