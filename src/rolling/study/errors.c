@@ -305,8 +305,8 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_CREEPAGE:
         return rounding * fmax(strain, fabs(s->creepage));
     case RB_SCALE_WIDTH:
-        /* found within an element, by a power law as well as equal elements show it, which ends
-         * where it will: where bodies relax the pressure is no power there */
+        /* found within an element where bodies relax and the pressure is no power there; equal
+         * elements show it to .02 to .15 of one, as it lies in one */
         return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded ? 0.5
                                : rc->mesh == RB_MESH_UNIFORM              ? 0.1
                                                                           : 0.0) *
