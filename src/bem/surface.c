@@ -60,10 +60,10 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
 
 /* ---- One strip --------------------------------------------------------------------- */
 
-/* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point, |X| >= 4 b:
- * the difference of its two large parts is formed as X ln((X + b)/(X - b)) = 2 b (1 + t^2/3 + t^4/5
- * +
- * ...), t = b/X, to rounding.  Without branches, so that loops are vectorised. */
+/* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point, |X| >= 4 b.
+ * The difference of its two large parts is formed as X ln((X + b)/(X - b)), which is
+ * 2 b (1 + t^2/3 + t^4/5 ...) with t = b/X, to rounding.  Without branches, so that loops are
+ * vectorised. */
 RB_INLINE double strip_log_far(double X, double b, double d)
 {
     const double t = b / X, u = t * t, uu = u * u, uuuu = uu * uu;
