@@ -173,9 +173,10 @@ TEST(doors_and_refusals)
     check_refused(LAYER "--max-pressure 20 --contact-elements 20 --derivatives", 64,
                   "Hertz's formula says the load; here it is searched for, and another input would "
                   "have another load. At a fixed one: --load ");
+    /* the moment of the pressures has rounding errors above what such friction could balance */
     check_refused(
         "--young 17000 --poisson 0.2 --support hub --similar --max-pressure 200 --mu 1e-12 "
-        "--formulation steady --force-ratio -0.2 --gap parabola --contact-elements 5",
+        "--formulation steady --free-axle --gap parabola --contact-elements 5",
         1, "max-pressure: its search ended under");
     write_file("loads.txt", "load shift\n100 0\n");
     check_refused(FLAT "--max-pressure 20 --history loads.txt", 64,
