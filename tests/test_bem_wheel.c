@@ -311,6 +311,12 @@ TEST(products_are_the_matrix)
         SCRATCH double *F = wheel_matrix(wheel, normals, n, ends);
         CHECK_OK(rb_bem_flexibility_wheel_products(n, ends, wheel, normals, &f, NULL));
         rb_bem_flexibility_apply(&f, r, w);
+        for (int i = 0; i < m; i++) /* chords, equal arcs as well */
+            CHECK_REL(
+                f.h[i],
+                2.0 * wheel->radius *
+                    sin(0.5 * (asin(ends[i + 1] / wheel->radius) - asin(ends[i] / wheel->radius))),
+                1e-12, "wheel %d, elements %d, length of element %d", k % WHEELS, kind, i);
         memset(want, 0, sizeof want);
         for (int j = 0; j < 2 * n; j++)
             for (int i = 0; i < 2 * m; i++)

@@ -133,6 +133,10 @@ TEST(results_are_valid)
         "--relaxation-time 1e-3 --relaxation-ratio 1 --speed 1000 --mu 0.3 --young-b 20 "
         "--poisson-b 0.3 --radius-b 40 --relaxation-time-b 1e-4 --relaxation-ratio-b 2 "
         "--layer-thickness-b 1 --base-young-b 100 --contact-elements 30" STEADY,
+        "--support hub --cover-thickness 4 --load 5000 --mu 0.3 --creep-ratio 0.4 --mesh aligned "
+        "--contact-elements 40" STEADY,
+        "--support hub --cover-thickness 4 --load 5000 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
+        "--contact-elements 160" STEADY,
         "--example paper",
         "--example hertz",
         "--example carter",

@@ -492,6 +492,8 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
         return s;
     if (rb_wheel_has_equal_arcs(n_c, ends, wheel->radius)) {
         s = rb_wheel_on_equal_arcs(n_c, ends, wheel->radius, rb_wheel_response, wheel, normals, f);
+        if (s == RB_OK) /* as the matrix has them, not arcs */
+            rb_wheel_chords(wheel->radius, n_c, ends, f->h);
         return rb_bem_flexibility_end("wheel", n_c, s, f, why);
     }
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
