@@ -722,10 +722,29 @@ static void check_edges(const contact *c, const table *t, const sums *s)
         expect("half_width", a, 0.5 * (to - from), 1e-12 * fabs(a) + tiny);
 }
 
+/* The largest pressure that elements show.  Between unlike bodies the last two that stick and the
+ * first that slips beside them err by a few per cent (theory-solvers.md, E4). */
+static double largest_shown(const contact *c, const table *t)
+{
+    const double *zone = t->column[ZONE];
+    const int alike = c->a.young == c->b.young && c->a.poisson == c->b.poisson;
+    double most = 0.0;
+    for (int i = 0; i < t->n; i++) {
+        int beside = 0;
+        for (int j = i - 1; j <= i + 1; j++)
+            for (int k = j - 1; k <= j + 1; k += 2)
+                beside |=
+                    j >= 0 && k >= 0 && j < t->n && k < t->n && zone[j] == STICK && zone[k] > STICK;
+        if (alike || !beside)
+            most = fmax(most, t->column[P][i]);
+    }
+    return most;
+}
+
 static void check_sums(const contact *c, const table *t)
 {
     const sums s = sums_of(c, t);
-    const double p0 = largest(t->n, t->column[P]);
+    const double p0 = largest_shown(c, t), most = largest(t->n, t->column[P]);
     const double peak = number(c->summary, "max_pressure");
     expect_same(c, "normal_load", s.P, 1e-12 * s.P);
     expect_same(c, "tangential_load", s.Q, 1e-12 * s.P * fmax(c->mu, 1.0));
@@ -735,8 +754,8 @@ static void check_sums(const contact *c, const table *t)
     const double tiny = 1e-9 * largest(t->n, t->column[H]);
     expect_same(c, "stick_from", s.stick_from, tiny);
     expect_same(c, "stick_to", s.stick_to, tiny);
-    /* the vertex of a parabola through three elements */
-    if (!(peak >= p0 * (1.0 - 1e-12) && peak <= 1.2 * p0))
+    /* the vertex of a parabola through three elements, or the pressure at a limit of stick */
+    if (!(peak >= p0 * (1.0 - 1e-12) && peak >= 0.9 * most && peak <= 1.2 * most))
         violated("max_pressure", "%g, the largest of the table is %g", peak, p0);
     check_edges(c, t, &s);
 }
