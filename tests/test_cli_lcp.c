@@ -24,7 +24,7 @@ static int enter(void **state)
 /* Nothing else was left behind. */
 static int leave(void **state)
 {
-    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x", "y"};
+    const char *names[] = {"good", "ray", "kostreva", "bad", "large", "out", "err", "p", "x", "y"};
     for (int i = 0; i < 9; i++)
         unlink(names[i]);
     return chdir("/") || rmdir(folder);

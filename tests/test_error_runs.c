@@ -80,6 +80,9 @@ static void bars_of_a_solution(rb_bem_support support)
         CHECK_OK(rb_rolling_solve(&coarser, &run[k], &message));
     }
     int counted = 0;
+    double longest = 0.0;
+    for (int i = 0; i < own.n; i++)
+        longest = fmax(longest, own.zone[i] == RB_ZONE_SEPARATED ? 0.0 : own.h[i]);
     for (int j = 0; j < rb_rolling_solution_scalars.n; j++) {
         const rb_rolling_result *row = &rb_rolling_solution_scalars.row[j];
         for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -90,7 +93,8 @@ static void bars_of_a_solution(rb_bem_support support)
                                       rb_rolling_number(row, &own)};
             check_bar(
                 row->name, rb_rolling_number(row, &errors.scalar),
-                wanted_bar(contact, support != RB_BEM_HALFPLANE, rb_rolling_number(row, &run[2])),
+                wanted_bar(contact, support != RB_BEM_HALFPLANE, rb_rolling_number(row, &run[2])) +
+                    (strcmp(names[i], "half_width") == 0 ? 0.1 * longest : 0.0), /* equal ones */
                 fabs(contact[2]));
             counted++;
         }
@@ -98,9 +102,6 @@ static void bars_of_a_solution(rb_bem_support support)
     assert_int_equal(counted, sizeof names / sizeof names[0]);
     check_rounding("normal_load", errors.scalar.normal_load, own.normal_load);
     if (support == RB_BEM_HALFPLANE) {
-        double longest = 0.0;
-        for (int i = 0; i < own.n; i++)
-            longest = fmax(longest, own.zone[i] == RB_ZONE_SEPARATED ? 0.0 : own.h[i]);
         const double D[] = {run[0].dissipation, run[1].dissipation, own.dissipation};
         check_bar("dissipation", errors.scalar.dissipation,
                   wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load, own.creepage,
