@@ -25,7 +25,7 @@ static int enter(void **state)
 static int leave(void **state)
 {
     const char *names[] = {"good", "ray", "kostreva", "bad", "large", "out", "err", "p", "x", "y"};
-    for (int i = 0; i < 9; i++)
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlink(names[i]);
     return chdir("/") || rmdir(folder);
 }

@@ -560,7 +560,11 @@ TEST(the_peak_is_hertzs)
 {
     rb_rolling_model model = {0};
     made_up m;
+    double x[N];
     make(&m);
+    for (int i = 0; i < N; i++)
+        x[i] = i + 0.5;
+    model.bodies.f.x = x;
     for (int k = 0; k < 5; k++) {
         const double at = 18.0 + 0.2 * k;
         for (int i = 0; i < N; i++) {

@@ -112,7 +112,7 @@ static void check_bars(const rb_rolling_case *rc)
         {RB_SCALE_ONE, rounding},
         {RB_SCALE_APPROACH, rounding * fabs(own.approach)},
         {RB_SCALE_CREEPAGE, rounding * fmax(rc->mu * a / R, fabs(own.creepage))},
-        {RB_SCALE_WIDTH, rounding * a},
+        {RB_SCALE_WIDTH, rounding * a + (rc->mesh == RB_MESH_UNIFORM ? 0.1 * h : 0.0)},
         {RB_SCALE_PRESSURE, rounding * own.max_pressure},
         {RB_SCALE_POWER, rb_rolling_edge_power(rc, P, own.creepage, a, h / (2.0 * own.half_width))},
         {RB_SCALE_MOMENT, rounding * P * a},

@@ -153,16 +153,18 @@ static int is_not_unique(const rb_rolling_model *model)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
-    int negative = 0, positive = 0;
+    int negative = 0, positive = 0, stick = 0;
 
     if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
         return 0;
     for (int i = 0; i < state->n; i++) {
         negative |= state->zone[i] == RB_ZONE_SLIP_NEGATIVE;
         positive |= state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+        stick += state->zone[i] == RB_ZONE_STICK;
     }
     return negative && positive &&
-           rb_rolling_held(state->n, state->zone, state->p, state->q, p->bound, p->mu) == 0;
+           stick == rb_rolling_count_at_bound(state->n, state->zone, state->p, state->q, p->bound,
+                                              p->mu);
 }
 
 static rb_status all_rows(history_state *r, rb_message *why)

@@ -32,7 +32,7 @@ int rb_rolling_is_below_zero(double dissipation, double load)
  * hardens carries more with more slip. */
 static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    const int held = rb_rolling_held(s->n, s->zone, s->p, s->q, s->mu, rc->mu);
+    const int held = s->stick - rb_rolling_count_at_bound(s->n, s->zone, s->p, s->q, s->mu, rc->mu);
 
     if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 || s->yielding > 0 ||
         !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))

@@ -50,11 +50,11 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contac
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_contact_state *state,
                                     rb_message *why);
 
-/* ---- held.c ----------------------------------------------------------------- */
+/* ---- at_bound.c ------------------------------------------------------------- */
 
-/* Of n elements with their coefficients mu (NULL: `one` everywhere): those that stick with less
- * friction than their bound. */
-int rb_rolling_held(int n, const int *zone, const double *p, const double *q, const double *mu,
-                    double one);
+/* Of n elements with their coefficients mu (NULL: `one` everywhere): those that stick at the bound
+ * of their friction. */
+int rb_rolling_count_at_bound(int n, const int *zone, const double *p, const double *q,
+                              const double *mu, double one);
 
 #endif
