@@ -617,12 +617,7 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
                            "each in plane strain (--support halfplane), without normal interlayer");
 }
 
-/* 0 says that it is not given, which rb_rolling_check_size() takes as no number. */
-static double where_given(double value)
-{
-    return value != 0.0 ? value : (double)NAN;
-}
-
+/* 0 says that a number is not given. */
 static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 {
     const struct {
@@ -630,36 +625,36 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
         double value;
     } sizes[] = {{"young", rc->a.young},
                  {"radius", rc->a.radius},
-                 {"datum", where_given(rc->a.datum)},
-                 {"layer-thickness", where_given(rc->a.layer)},
-                 {"base-young", where_given(rc->a.base_young)},
-                 {"core-young", where_given(rc->a.core_young)},
+                 {"datum", rc->a.datum},
+                 {"layer-thickness", rc->a.layer},
+                 {"base-young", rc->a.base_young},
+                 {"core-young", rc->a.core_young},
                  {"young-b", rc->elastic_b ? rc->b.young : 1.0},
                  {"radius-b", rc->elastic_b ? rc->b.radius : INFINITY},
-                 {"datum-b", where_given(rc->b.datum)},
-                 {"layer-thickness-b", where_given(rc->b.layer)},
-                 {"base-young-b", where_given(rc->b.base_young)},
-                 {"core-young-b", where_given(rc->b.core_young)},
-                 {"interlayer-normal", where_given(rc->interlayer_normal)},
-                 {"interlayer-tangential", where_given(rc->interlayer_tangential)},
+                 {"datum-b", rc->b.datum},
+                 {"layer-thickness-b", rc->b.layer},
+                 {"base-young-b", rc->b.base_young},
+                 {"core-young-b", rc->b.core_young},
+                 {"interlayer-normal", rc->interlayer_normal},
+                 {"interlayer-tangential", rc->interlayer_tangential},
                  {"load", rc->load},
                  {"approach", rc->approach},
                  {"half-width", rc->half_width},
                  {"max-pressure", rc->max_pressure},
-                 {"bulk-stress", where_given(rc->bulk_stress)},
-                 {"bulk-stress-b", where_given(rc->bulk_stress_b)},
+                 {"bulk-stress", rc->bulk_stress},
+                 {"bulk-stress-b", rc->bulk_stress_b},
                  {"wheel-load", rc->wheel_load},
-                 {"period", where_given(rc->period)},
+                 {"period", rc->period},
                  {"amplitude", rc->gap == RB_GAP_WAVE ? rc->amplitude : 1.0},
                  {"transverse-radius", rc->transverse_radius},
                  {"transverse-radius-b", rc->transverse_radius_b},
-                 {"mu", where_given(rc->mu)},
-                 {"shift", where_given(rc->shift)},
-                 {"creep", where_given(rc->creep)},
-                 {"force", where_given(rc->force)},
-                 {"tilt", where_given(rc->tilt)},
-                 {"zone", where_given(rc->zone)},
-                 {"speed", where_given(rc->speed)}};
+                 {"mu", rc->mu},
+                 {"shift", rc->shift},
+                 {"creep", rc->creep},
+                 {"force", rc->force},
+                 {"tilt", rc->tilt},
+                 {"zone", rc->zone},
+                 {"speed", rc->speed}};
 
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
         const rb_status s = rb_rolling_check_size(sizes[k].what, sizes[k].value, why);
