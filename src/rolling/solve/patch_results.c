@@ -15,7 +15,7 @@ static int is_beside_limit(const rb_rolling_case *rc, const rb_rolling_tractions
     rb_rolling_stick_limit limit;
 
     for (int side = -1; side <= 1; side += 2)
-        for (int last = i - 1; last <= i + 1; last++)
+        for (int last = i - RB_ROLLING_DISTURBED + 1; last < i + RB_ROLLING_DISTURBED; last++)
             if (last >= 0 && last < of->n && rb_rolling_stick_limit_of(rc, of, last, side, &limit))
                 return 1;
     return 0;

@@ -4,6 +4,8 @@
 
 #include "rolling/case/inputs.h"
 
+#include <math.h>
+
 /* A patch: neighbouring elements first ... last in contact, and its edges. */
 typedef struct {
     int first, last;
@@ -46,6 +48,24 @@ static inline int rb_rolling_vertex(const double d[2], const double f[2], double
     *at = -slope / (2.0 * curvature);
     return 1;
 }
+/* 1 + b t + c t^2. */
+typedef struct {
+    double b, c;
+} rb_rolling_parabola;
+static inline double rb_rolling_parabola_at(const rb_rolling_parabola *of, double t)
+{
+    return 1.0 + t * (of->b + of->c * t);
+}
+/* Through three points, the first one (0, 1); its root, 0 where there is none ahead. */
+static inline double rb_rolling_set_parabola(const double t[3], const double y[3],
+                                             rb_rolling_parabola *of)
+{
+    const double slope = (y[1] - y[0]) / t[1], next = (y[2] - y[1]) / (t[2] - t[1]);
+    of->c = (next - slope) / t[2];
+    of->b = slope - of->c * t[1];
+    const double square = of->b * of->b - 4.0 * of->c;
+    return of->b < 0.0 && square >= 0.0 ? 2.0 / (sqrt(square) - of->b) : 0.0;
+}
 /* aligned_edge.c: the edge beyond the outermost loaded element on that side (-1 left, +1 right) of
  * a patch of RB_ROLLING_ALIGNED_LEAST equal elements or more.  p: n. */
 double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -56,6 +76,9 @@ typedef struct {
     const int *zone;
     const double *x, *p, *q;
 } rb_rolling_tractions;
+/* Of a stick zone this many elements at either limit are disturbed, and so many it has at least
+ * where its limits are known. */
+enum { RB_ROLLING_DISTURBED = 2, RB_ROLLING_LIMIT_LEAST = 7 };
 /* The largest pressure of a stick zone between its fourth element from a limit and the limit
  * itself, and where it is. */
 typedef struct {

@@ -9,31 +9,7 @@
  * behind them are trusted.  The third one still is by 1e-4, up or down as the limit lies in an
  * element, which the parabola makes eight times as much: in a long zone, whose parabola goes far
  * enough, they begin with the fourth. */
-enum { DISTURBED = 2, TRUSTED = 3, LEAST = 2 * DISTURBED + TRUSTED, LONG = 20 };
-
-/* A parabola through three points, t = 0 first: y = y0 + slope t + bend t^2. */
-typedef struct {
-    double y0, slope, bend;
-} parabola;
-
-static parabola through(const double t[TRUSTED], const double y[TRUSTED])
-{
-    const double first = (y[1] - y[0]) / t[1], second = (y[2] - y[0]) / t[2];
-    const double bend = (second - first) / (t[2] - t[1]);
-    return (parabola){y[0], first - bend * t[1], bend};
-}
-
-static double at(const parabola *of, double t)
-{
-    return of->y0 + t * (of->slope + t * of->bend);
-}
-
-/* The first t > 0 where it, falling from y0 > 0, is zero; NAN: nowhere. */
-static double zero_of(const parabola *of)
-{
-    const double square = gsl_pow_2(of->slope) - 4.0 * of->bend * of->y0;
-    return square >= 0.0 && of->slope < 0.0 ? 2.0 * of->y0 / (sqrt(square) - of->slope) : NAN;
-}
+enum { TRUSTED = 3, LONG = 20 };
 
 int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tractions *of, int last,
                               int side, rb_rolling_stick_limit *limit)
@@ -46,15 +22,17 @@ int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tracti
     for (int i = last; i >= 0 && i < of->n && of->zone[i] == RB_ZONE_STICK && stuck < LONG;
          i -= side)
         stuck++;
-    if (stuck < LEAST)
+    if (stuck < RB_ROLLING_LIMIT_LEAST)
         return 0;
     const double beta = rb_rolling_derive(rc).dundurs;
     if (beta == 0.0 || rc->interlayer_normal > 0.0 || rc->interlayer_tangential > 0.0)
         return 0;
-    const int from = last - (stuck < LONG ? DISTURBED : DISTURBED + 1) * side;
+    const int disturbed = stuck < LONG ? RB_ROLLING_DISTURBED : RB_ROLLING_DISTURBED + 1;
+    const int from = last - disturbed * side;
     const double ratio = of->q[slips] / of->p[slips], x = of->x[from];
     const double exponent = 0.5 - side * atan(beta * ratio) / M_PI;
     const double unused = ratio * of->p[from] - of->q[from]; /* of the bound, not 0 */
+    /* of places; of p^2 and of what is left of the bound, over their first one */
     double t[TRUSTED], squared[TRUSTED], straight[TRUSTED];
     for (int k = 0; k < TRUSTED; k++) {
         const int j = from - k * side;
@@ -62,18 +40,20 @@ int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tracti
         if (!(part > 0.0))
             return 0;
         t[k] = side * (of->x[j] - x);
-        squared[k] = gsl_pow_2(of->p[j]);
+        squared[k] = gsl_pow_2(of->p[j] / of->p[from]);
         straight[k] = pow(part, 1.0 / exponent);
     }
-    const parabola of_unused = through(t, straight), of_p = through(t, squared);
+    rb_rolling_parabola of_unused, of_p;
+    const double end = rb_rolling_set_parabola(t, straight, &of_unused);
+    rb_rolling_set_parabola(t, squared, &of_p);
     /* between the midpoints of the last element but one that sticks and the second that slips, or
      * the first one at the end of the mesh */
     const int beyond = slips + side < 0 || slips + side >= of->n ? slips : slips + side;
-    const double end = zero_of(&of_unused);
     if (!(end > side * (of->x[last - side] - x) && end < side * (of->x[beyond] - x)))
         return 0;
-    const double vertex = of_p.bend < 0.0 ? -0.5 * of_p.slope / of_p.bend : end;
+    const double vertex = of_p.c < 0.0 ? -0.5 * of_p.b / of_p.c : end;
     const double highest = fmin(fmax(vertex, 0.0), end);
-    *limit = (rb_rolling_stick_limit){sqrt(fmax(at(&of_p, highest), 0.0)), x + side * highest};
+    *limit = (rb_rolling_stick_limit){
+        of->p[from] * sqrt(fmax(rb_rolling_parabola_at(&of_p, highest), 0.0)), x + side * highest};
     return 1;
 }

@@ -25,27 +25,17 @@ typedef struct {
 } patch;
 
 /* Where the pressure goes near an edge: t being the distance outwards from the outermost
- * trusted midpoint `from`, p(t) = p(0) (1 + b t + c t^2)^exponent, zero at t = reach.  With
+ * trusted midpoint `from`, p(t) = p(0) shape(t)^exponent, zero at t = reach.  With
  * reach = 0 nothing is known, and the tractions stay linear between the midpoints. */
 typedef struct {
     int from, side;
-    double exponent, b, c, reach;
+    double exponent, reach;
+    rb_rolling_parabola shape;
 } edge;
 
 static double pressure_beyond(const edge *e, double t)
 {
-    return pow(fmax(1.0 + t * (e->b + e->c * t), 0.0), e->exponent);
-}
-
-/* The parabola 1 + b t + c t^2 through three points, the first at t = 0; its root, 0 where there is
- * none ahead. */
-static double set_parabola(edge *e, const double t[3], const double y[3])
-{
-    const double slope = (y[1] - y[0]) / t[1], next = (y[2] - y[1]) / (t[2] - t[1]);
-    e->c = (next - slope) / t[2];
-    e->b = slope - e->c * t[1];
-    const double square = e->b * e->b - 4.0 * e->c;
-    return e->b < 0.0 && square >= 0.0 ? 2.0 / (sqrt(square) - e->b) : 0.0;
+    return pow(fmax(rb_rolling_parabola_at(&e->shape, t), 0.0), e->exponent);
 }
 
 /* From the outermost trusted midpoint to the edge, less what the elements carry there, over the
@@ -89,7 +79,7 @@ static edge edge_with(const patch *r, int side, int replaced, int apart)
         d[i] = side * (r->x[j] - r->x[e.from]);
         y[i] = pow(r->p[j] / r->p[e.from], 1.0 / e.exponent);
     }
-    const double reach = set_parabola(&e, d, y);
+    const double reach = rb_rolling_set_parabola(d, y, &e.shape);
     /* An edge lies in the last loaded or in the first open element, not beyond the middle
      * of one that stands between two patches, and the elements that are replaced have about
      * the pressure that is put in their place. */
@@ -224,7 +214,7 @@ static stick_end stick_end_of(const patch *r, int sticks, int side, int first, i
     }
     /* between the midpoints of the last element but one that sticks and of the second that slips */
     const int beyond = slips + side, before = sticks - side;
-    const double reach = set_parabola(&e.of, d, y);
+    const double reach = rb_rolling_set_parabola(d, y, &e.of.shape);
     if (beyond >= first && beyond <= last && reach > side * (r->x[before] - r->x[from]) &&
         reach < side * (r->x[beyond] - r->x[from]))
         e.of.reach = reach;

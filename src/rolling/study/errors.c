@@ -118,7 +118,7 @@ typedef struct {
 static unresolved_stick find_unresolved_stick(const rb_rolling_case *rc,
                                               const rb_rolling_solution *s)
 {
-    enum { SHOWS_NO_PLACE = 4, SHOWS_NO_LIMIT = 7 };
+    enum { SHOWS_NO_PLACE = 4 };
     const double slope = M_2_PI * rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs);
     int before = RB_ZONE_SEPARATED, stuck = 0;
     unresolved_stick found = {0.0, 0.0, 0.0};
@@ -129,7 +129,7 @@ static unresolved_stick find_unresolved_stick(const rb_rolling_case *rc,
             continue;
         }
         if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK && s->zone[i] != before &&
-            stuck < SHOWS_NO_LIMIT) {
+            stuck < RB_ROLLING_LIMIT_LEAST) {
             double most = 0.0;
             for (int j = i - stuck - 1; j <= i; j++)
                 most = fmax(most, s->p[j]);
