@@ -153,16 +153,13 @@ static int is_not_unique(const rb_rolling_model *model)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
-    int negative = 0, positive = 0, stick = 0;
+    int stick = 0;
 
     if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
         return 0;
-    for (int i = 0; i < state->n; i++) {
-        negative |= state->zone[i] == RB_ZONE_SLIP_NEGATIVE;
-        positive |= state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+    for (int i = 0; i < state->n; i++)
         stick += state->zone[i] == RB_ZONE_STICK;
-    }
-    return negative && positive &&
+    return rb_rolling_slips_both_ways(state->n, state->zone) &&
            stick == rb_rolling_count_at_bound(state->n, state->zone, state->p, state->q, p->bound,
                                               p->mu);
 }

@@ -32,14 +32,3 @@ int rb_rolling_creepage_is_given(const rb_rolling_case *rc)
 {
     return !isnan(rc->creep) || !isnan(rc->creep_ratio);
 }
-
-int rb_rolling_slips_both_ways(const rb_rolling_solution *s)
-{
-    int negative = 0, positive = 0;
-
-    for (int i = 0; i < s->n; i++) {
-        negative |= s->zone[i] == RB_ZONE_SLIP_NEGATIVE;
-        positive |= s->zone[i] == RB_ZONE_SLIP_POSITIVE;
-    }
-    return negative && positive;
-}

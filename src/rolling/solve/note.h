@@ -46,8 +46,6 @@ int rb_rolling_write_note(char *text, const char *format, ...) RB_PRINTF(2, 3);
 /* Half the width of the widest patch, in the units of the solution. */
 double rb_rolling_widest_patch(const rb_rolling_solution *s);
 int rb_rolling_creepage_is_given(const rb_rolling_case *rc);
-/* 1: some elements slip with q = -mu p and others with q = +mu p. */
-int rb_rolling_slips_both_ways(const rb_rolling_solution *s);
 
 /* ---- datum.c --------------------------------------------------------------------------- */
 

@@ -37,7 +37,7 @@ static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solutio
     if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 || s->yielding > 0 ||
         !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))
         return 0;
-    if (rb_rolling_slips_both_ways(s))
+    if (rb_rolling_slips_both_ways(s->n, s->zone))
         return rb_rolling_write_note(
             text,
             "%s slide towards both sides: the %s is not unique, a range of it gives the "

@@ -41,7 +41,7 @@ static int strained_creepage(const rb_rolling_case *rc, const rb_rolling_solutio
 static int slips_both_ways(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     return rc->formulation == RB_STATIC && rb_rolling_is_strained(rc) &&
-           rb_rolling_slips_both_ways(s) && !rb_rolling_has_steps(rc) &&
+           rb_rolling_slips_both_ways(s->n, s->zone) && !rb_rolling_has_steps(rc) &&
            rb_rolling_write_note(
                text, "The contact slips in both directions: where it does, friction depends on the "
                      "order in which force and bulk stress came, and in how many steps "

@@ -56,5 +56,7 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_cont
  * of their friction. */
 int rb_rolling_count_at_bound(int n, const int *zone, const double *p, const double *q,
                               const double *mu, double one);
+/* 1: some of n elements slip with q = -mu p and others with q = +mu p. */
+int rb_rolling_slips_both_ways(int n, const int *zone);
 
 #endif
