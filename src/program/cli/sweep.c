@@ -127,19 +127,6 @@ static cli_exit find_fingerprint(study *st)
     return CLI_CONTINUE;
 }
 
-/* Means and deviations of a sample: of what has come in this run. */
-static void add_to_sample(study *st, const rb_rolling_row *row)
-{
-    for (int j = 0; j < st->results; j++) {
-        const double x = cli_study_result_value(st, j, row);
-        if (st->summed == 0)
-            st->first_result[j] = x;
-        st->sum[j] += x - st->first_result[j];
-        st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
-    }
-    st->summed++;
-}
-
 static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     study *st = context;
@@ -149,8 +136,17 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_case_note_materials_of_row(st->base, &shown.notes); /* which are given is one for all */
     cli_study_write_notes(st, k, &shown.notes);
     cli_study_write_row(st, k, &shown);
-    if (st->o->sample != 0 && shown.solution.status == RB_OK)
-        add_to_sample(st, &shown);
+    /* Means and deviations of a sample: of what has come in this run. */
+    if (st->o->sample != 0 && shown.solution.status == RB_OK) {
+        for (int j = 0; j < st->results; j++) {
+            const double x = cli_study_result_value(st, j, &shown);
+            if (st->summed == 0)
+                st->first_result[j] = x;
+            st->sum[j] += x - st->first_result[j];
+            st->square[j] += (x - st->first_result[j]) * (x - st->first_result[j]);
+        }
+        st->summed++;
+    }
     cli_study_count(st, k, row->solution.status);
     return ferror(st->out);
 }

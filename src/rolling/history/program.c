@@ -246,12 +246,15 @@ rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *w
     return rb_rolling_case_check(&touching, why);
 }
 
-/* Which columns a history of this formulation may have; all their numbers are finite. */
-static rb_status check_columns(const rb_rolling_program *program, const rb_rolling_case *rc,
-                               rb_message *why)
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why)
 {
     const rb_rolling_formulation formulation = rc->formulation;
+    const double *d = program->distance;
+    int touches = 0;
 
+    if (program->n < 1)
+        return rb_refuse(why, "history", "expected 1 row or more");
     if (formulation == RB_STEADY)
         return rb_refuse(why, "history", "steady rolling has none");
     if (formulation == RB_TRANSIENT && !program->distance)
@@ -275,38 +278,27 @@ static rb_status check_columns(const rb_rolling_program *program, const rb_rolli
             if (!isfinite(column_of(program, c)[r]))
                 return rb_refuse_row(why, "history", r + 1, "%s is not a number",
                                      rb_rolling_program_columns[c].name);
-    return RB_OK;
-}
+    if (formulation == RB_STATIC && rb_rolling_relaxes(rc)) {
+        const double *t = program->time;
+        double steps = 0.0;
 
-/* Times of bodies that relax at rest: from 0 on, in an order, in not too many steps. */
-static rb_status check_times(const rb_rolling_program *program, const rb_rolling_case *rc,
-                             rb_message *why)
-{
-    const double *t = program->time;
-    double steps = 0.0;
-
-    if (!t)
-        return rb_refuse(why, "history",
-                         "static contact of viscoelastic bodies needs a column time");
-    if (t[0] != 0.0)
-        return rb_refuse_row(why, "history", 1,
-                             "expected time 0, when the bodies are pressed together, got %g", t[0]);
-    for (int r = 1; r < program->n; r++) {
-        if (t[r] < t[r - 1])
-            return rb_refuse_row(why, "history", r + 1, "time %g is before that of the row before",
-                                 t[r]);
-        steps += rb_rolling_program_parts(program, rc, r);
+        if (!t)
+            return rb_refuse(why, "history",
+                             "static contact of viscoelastic bodies needs a column time");
+        if (t[0] != 0.0)
+            return rb_refuse_row(why, "history", 1,
+                                 "expected time 0, when the bodies are pressed together, got %g",
+                                 t[0]);
+        for (int r = 1; r < program->n; r++) {
+            if (t[r] < t[r - 1])
+                return rb_refuse_row(why, "history", r + 1,
+                                     "time %g is before that of the row before", t[r]);
+            steps += rb_rolling_program_parts(program, rc, r);
+        }
+        if (!(steps <= RB_ROLLING_MOST_STEPS))
+            return rb_refuse(why, "time-step", "%g s makes %.3g steps; expected at most %g",
+                             rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
     }
-    if (!(steps <= RB_ROLLING_MOST_STEPS))
-        return rb_refuse(why, "time-step", "%g s makes %.3g steps; expected at most %g",
-                         rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
-    return RB_OK;
-}
-
-static rb_status check_distances(const rb_rolling_program *program, rb_message *why)
-{
-    const double *d = program->distance;
-
     if (d && d[0] != 0.0)
         return rb_refuse_row(why, "history", 1,
                              "expected distance 0, where the contact starts from rest, got %g",
@@ -319,23 +311,6 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
             return rb_refuse_row(why, "history", r + 1,
                                  "distance %g twice; a jump needs two rows a little apart", d[r]);
     }
-    return RB_OK;
-}
-
-rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
-                                   rb_message *why)
-{
-    int touches = 0;
-
-    if (program->n < 1)
-        return rb_refuse(why, "history", "expected 1 row or more");
-    rb_status checked = check_columns(program, rc, why);
-    if (checked == RB_OK && rc->formulation == RB_STATIC && rb_rolling_relaxes(rc))
-        checked = check_times(program, rc, why);
-    if (checked == RB_OK)
-        checked = check_distances(program, why);
-    if (checked != RB_OK)
-        return checked;
     for (int r = 0; r < program->n; r++) {
         const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
         rb_message reason = {.text = ""};
