@@ -92,8 +92,6 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     rb_option_source(&number, *given, cli_case_file_of(&run->args), what, sizeof what);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
-    if (rb_rolling_check_size(name, *end, &why) != RB_OK)
-        return cli_case_refused(run->words, RB_EINVAL, &why);
     rb_case_store(run->words, &set, end);
     return CLI_CONTINUE;
 }
@@ -131,7 +129,8 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         else
             s = rb_rolling_curve_solve(&rc, &all, &curves->curve[k], &reason);
         curves->n += s >= 0;
-        if (s != RB_OK && mus->n > 1 && before == RB_OK)
+        /* an option that is refused is named by itself */
+        if (s != RB_OK && mus->n > 1 && before == RB_OK && !reason.about[0])
             rb_fail(why, s, "mu = %g: %.480s", rc.mu, rb_status_reason(s, &reason));
         else if (s != RB_OK && (before == RB_OK || s < 0))
             *why = reason;
