@@ -449,6 +449,15 @@ static int count_in_a_process(const rb_case *c, random_regime regime, bars_of_ca
     return is_whole;
 }
 
+/* A file in a folder that it makes from the template, to be written and closed. */
+static FILE *begin_file(char *folder, const char *name)
+{
+    char path[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return NOT_NULL(fopen(path, "w"));
+}
+
 /* Of so many cases over all options, how many have a bar that does not hold. */
 static int study_of_all_options(int cases, int from)
 {
@@ -593,9 +602,7 @@ TEST(a_bar_holds_the_edge_between_equal_elements)
 TEST(a_zone_of_more_than_an_element_hides_where_none_sticks)
 {
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
-    assert_non_null(mkdtemp(folder));
-    snprintf(line, sizeof line, "%s/worn.txt", folder);
-    FILE *file = NOT_NULL(fopen(line, "w"));
+    FILE *file = begin_file(folder, "worn.txt");
     fputs("-1.8 0\n-0.6 0.00121241\n0.4 0.00181861\n1.6 0\n", file);
     fclose(file);
     snprintf(line, sizeof line,
@@ -722,9 +729,7 @@ TEST(a_jump_of_friction_beside_the_peak_is_no_error_of_it)
 TEST(an_accuracy_that_does_not_come_nearer_is_given_up)
 {
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
-    assert_non_null(mkdtemp(folder));
-    snprintf(line, sizeof line, "%s/worn.txt", folder);
-    FILE *file = NOT_NULL(fopen(line, "w"));
+    FILE *file = begin_file(folder, "worn.txt");
     fputs("-0.9 0\n-0.3 0.0005\n0.2 0.00075\n0.8 0\n", file);
     fclose(file);
     snprintf(line, sizeof line,
@@ -743,9 +748,7 @@ TEST(an_accuracy_that_does_not_come_nearer_is_given_up)
 static void two_patches(const char *options, double centre, double width, double depth)
 {
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
-    assert_non_null(mkdtemp(folder));
-    snprintf(line, sizeof line, "%s/gap.txt", folder);
-    FILE *file = NOT_NULL(fopen(line, "w"));
+    FILE *file = begin_file(folder, "gap.txt");
     for (int k = -100; k <= 100; k++) {
         const double x = 0.04 * k;
         fprintf(file, "%.10g %.10g\n", x,
@@ -785,9 +788,7 @@ TEST(bars_hold_on_two_patches)
 TEST(a_corner_of_a_punch_leaves_the_largest_pressure_without_a_bar)
 {
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
-    assert_non_null(mkdtemp(folder));
-    snprintf(line, sizeof line, "%s/punch.txt", folder);
-    FILE *file = NOT_NULL(fopen(line, "w"));
+    FILE *file = begin_file(folder, "punch.txt");
     for (int k = -40; k <= 40; k++)
         fprintf(file, "%.10g %.10g\n", 0.05 * k, gsl_pow_2(0.05 * k) / 1e4);
     fclose(file);
