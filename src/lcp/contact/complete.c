@@ -5,8 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this part of the stress scale a traction is rounding. */
-static const double ROUNDING = 1e-12;
+/* Below this part of the stress scale a traction is rounding; below the second one a scaled
+ * residual is, and does not tell which of two states is the better. */
+static const double ROUNDING = 1e-12, SAME_RESIDUAL = 1e-14;
 
 rb_status rb_contact_measure(const rb_contact_problem *problem, rb_contact_state *state)
 {
@@ -57,7 +58,7 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
             state->p[i] = state->q[i] = 0.0;
     rb_status s = rb_contact_measure(problem, state);
     if (s == RB_OK && !exact) {
-        /* One exact solve with the zones of the state (5.2), kept when that makes it better: the
+        /* One exact solve with the zones of the state (5.2), kept unless that makes it worse: the
          * rounding errors of a path of pivots are gone. */
         const size_t bytes = (size_t)problem->n * sizeof(double);
         rb_contact_state trial;
@@ -77,7 +78,7 @@ rb_status rb_contact_complete(rb_contact_problem *problem, int exact, rb_contact
         }
         if (s == RB_OK)
             s = rb_contact_measure(problem, &trial);
-        if (s == RB_OK && trial.residual < state->residual) {
+        if (s == RB_OK && trial.residual < fmax(state->residual, SAME_RESIDUAL)) {
             memcpy(state->p, trial.p, bytes);
             memcpy(state->q, trial.q, bytes);
             memcpy(state->plastic, trial.plastic, bytes);
