@@ -503,6 +503,17 @@ TEST(examples_are_at_hand)
     assert_int_equal(rollbem("-h"), 0);
     assert_ptr_equal(strstr(out, "Usage: rollbem"), out);
     check_refused("examples rail", 64, "examples: unexpected 'rail'");
+    check_refused("wear --support halfplane --load 9 --slide 9 --wear-coefficient 1e-9 --every 2",
+                  64, "--every: only with --snapshots");
+    check_refused("wear --support halfplane --load 9 --slide 9 --wear-coefficient 1e-9 --quarter 2",
+                  64, "--quarter: only with --cycles");
+    check_refused("wear --support halfplane --load 9 --formulation steady --creep-ratio 0.5 "
+                  "--cycles 9 --wear-coefficient 1e-9 --quarter 2",
+                  64, "--quarter: of fretting");
+    check_refused("--support halfplane --load 9 --increments 2 --every 2", 64,
+                  "--every: only with --snapshots");
+    check_refused("stress --support halfplane --load 9 --fringe 3", 64,
+                  "--fringe: only with --fringes");
     check_refused("stress --support halfplane --plane stress --shakedown-map m.svg", 64,
                   "--shakedown-map: its limits are those of plane strain");
 }

@@ -444,6 +444,7 @@ TEST(values_may_have_units)
     CHECK_ABS(entry(table, "load", 0), 1e5, 1e-9, "plain numbers of the file");
     CHECK_ABS(entry(table, "load", 1), 2e5, 1e-9, "with a unit");
     json_decref(root);
+    check_refused(STUDY "--vary-1 'mu .1 .2' --seed 3", 64, "--seed: only with --sample");
     check_refused(STUDY "--vary-1 'load 100kN 200'", 64,
                   "--vary-1: load: expected a number in one of N/mm");
     check_refused(STUDY "--vary-1 'contact-elements 20mm'", 64,

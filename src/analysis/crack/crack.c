@@ -68,9 +68,7 @@ static rb_status check_shape(const rb_crack_shape *shape, rb_message *why)
     return RB_OK;
 }
 
-/* Ends s of the elements, a sin^2(phi), phi = 0 ... 90 degrees, graded towards both ends
- * of the crack.  phi is stretched so that each kink of the path falls on an end. */
-static void grade(const rb_crack_path *path, int n, double *s)
+void rb_crack_grade(const rb_crack_path *path, int n, double *s)
 {
     const int pieces = path->pieces, least = GSL_MIN(PIECE_ELEMENTS, n / pieces);
     double length = 0.0, before = 0.0, phi_before = 0.0;
@@ -401,7 +399,7 @@ rb_status rb_crack_create(const rb_crack_shape *shape, rb_crack **crack, rb_mess
     double *s = rb_alloc((size_t)shape->elements + 1, 1);
     status = RB_ENOMEM;
     if (s) {
-        grade(&shape->path, shape->elements, s);
+        rb_crack_grade(&shape->path, shape->elements, s);
         status = assemble(shape, s, crack, why);
     }
     if (status == RB_OK)

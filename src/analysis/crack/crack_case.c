@@ -1,6 +1,7 @@
 /* A crack under the contact of a case: its options, and the contact as its load. */
 #include "analysis/crack/crack.h"
 #include "analysis/crack/crack_case.h"
+#include "analysis/crack/internal.h"
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>
@@ -116,25 +117,37 @@ static rb_status check_places(const rb_case_crack *l, double a, rb_message *why)
     return RB_OK;
 }
 
-/* The stress of the contact changes over the half-width, or, deeper, over the depth: elements much
- * longer than that do not see it. */
-static rb_status check_elements(const rb_case_crack *l, double a, rb_message *why)
+rb_status rb_case_crack_check_elements(const rb_crack_path *path, int n, double a, rb_message *why)
 {
     static const double LONGEST = 2.0;
-    const double slope = fabs(sin(l->angle * M_PI / 180.0));
-    const int n = l->elements;
-    double worst = 0.0;
+    double *s = rb_alloc((size_t)n + 1, 1);
+    double worst = 0.0, before = 0.0;
+    int piece = 0;
 
+    if (!s)
+        return rb_fail(why, RB_ENOMEM, "crack: out of memory for %d elements", n);
+    rb_crack_grade(path, n, s);
     for (int j = 0; j < n; j++) {
-        const double from = l->length * gsl_pow_2(sin(0.5 * M_PI * j / n)),
-                     to = l->length * gsl_pow_2(sin(0.5 * M_PI * (j + 1) / n));
-        worst = fmax(worst, (to - from) / fmax(a, l->depth + from * slope));
+        double piece_length =
+            hypot(path->x[piece + 1] - path->x[piece], path->y[piece + 1] - path->y[piece]);
+        if (piece + 1 < path->pieces && s[j] >= before + piece_length * (1.0 - 1e-12)) {
+            before = s[j];
+            piece++;
+            piece_length =
+                hypot(path->x[piece + 1] - path->x[piece], path->y[piece + 1] - path->y[piece]);
+        }
+        const double slope = (path->y[piece] - path->y[piece + 1]) / piece_length,
+                     from = -path->y[piece] + (s[j] - before) * slope,
+                     to = from + (s[j + 1] - s[j]) * slope;
+        worst = fmax(worst, (s[j + 1] - s[j]) / fmax(a, fmin(from, to)));
     }
+    const double length = s[n];
+    free(s);
     if (worst > LONGEST)
-        return rb_refuse(why, "crack-elements,crack-length",
+        return rb_refuse(why, "crack-elements,grow-to,crack-length",
                          "%d elements along a crack of %g half-widths are up to %g times as long "
                          "as the half-width or their depth, expected at most %g",
-                         n, l->length / a, worst, LONGEST);
+                         n, length / a, worst, LONGEST);
     return RB_OK;
 }
 
@@ -152,8 +165,11 @@ static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k
                          "the lengths of the crack could be measured by; give them with a unit, "
                          "such as --crack-length 0.05mm");
     rb_status s = check_places(&l, a, why);
-    if (s == RB_OK && !k->unloaded)
-        s = check_elements(&l, a, why);
+    if (s == RB_OK && !k->unloaded) {
+        const double longest = isnan(k->paris) ? l.length : l.grow_to;
+        const rb_crack_path path = rb_crack_straight(l.mouth, l.depth, longest, k->angle);
+        s = rb_case_crack_check_elements(&path, k->elements, a, why);
+    }
     if (s != RB_OK)
         return s;
     if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))

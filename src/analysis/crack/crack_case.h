@@ -157,6 +157,10 @@ rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *len
                              const rb_crack_observer *observer, rb_crack *crack,
                              rb_case_crack_result *r, rb_message *why);
 
+/* The stress of the contact changes over the half-width a, or, deeper, over the depth: elements
+ * much longer than that do not see it.  RB_EINVAL: one of n elements is; RB_ENOMEM. */
+rb_status rb_case_crack_check_elements(const rb_crack_path *path, int n, double a, rb_message *why);
+
 /* ---- growth.c ---------------------------------------------------------------------- */
 
 /* Checks the options of crack growth. */

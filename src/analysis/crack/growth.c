@@ -116,7 +116,10 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
         }
         shape.elements = k->elements + PIECE_ELEMENTS * (shape.path.pieces - 1);
         l.length = first + (last - first) * i / k->grow_steps;
-        s = rb_crack_create(&shape, &crack, why);
+        if (!k->unloaded)
+            s = rb_case_crack_check_elements(&shape.path, shape.elements, r->half_width, why);
+        if (s == RB_OK)
+            s = rb_crack_create(&shape, &crack, why);
         if (s == RB_OK)
             s = rb_case_crack_pass(c, &l, track, NULL, observer, crack, &longer, why);
         if (s == RB_OK) {

@@ -15,6 +15,11 @@ typedef struct {
     int piece;
 } rb_crack_element;
 
+/* Ends s of n elements along the path, n + 1 values, from 0: a sin^2(phi), phi = 0 ... 90 degrees,
+ * graded towards both ends of the crack.  phi is stretched so that each kink falls on an end.  n:
+ * at least two a piece. */
+void rb_crack_grade(const rb_crack_path *path, int n, double *s);
+
 /* A place where the stress is wanted, its weight times the length it stands for, and the
  * two hats there. */
 typedef struct {

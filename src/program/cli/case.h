@@ -81,6 +81,11 @@ typedef struct {
     cli_draw *draw;
 } cli_case_file;
 
+/* An option of the command that means nothing without another one. */
+typedef struct {
+    const char *option, *with;
+} cli_case_need;
+
 enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
 /* What is the command's own.  Functions may be NULL, but for solve, table, summarise. */
@@ -94,6 +99,7 @@ struct cli_case_command {
     int takes_crack;            /* 1: the case takes the options of a crack */
     int operands;               /* its own, in front of the case file */
     const cli_case_file *files; /* the last row has no option; NULL: none */
+    const cli_case_need *needs; /* likewise */
 
     /* before the case is resolved, and before it is solved: CLI_CONTINUE, or an exit code after
      * saying what is wrong */

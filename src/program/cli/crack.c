@@ -130,6 +130,8 @@ static void ask(const cli_case_run *run, json_t **members)
     rb_report_json_set(members, "faces", json_boolean(((const crack_run *)run->own)->states));
 }
 
+static const cli_case_need needs[] = {{"at", "plot-crack"}, {NULL, NULL}};
+
 static const cli_case_command command = {
     .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
     .about = about,
@@ -139,6 +141,7 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .takes_crack = 1,
     .files = files,
+    .needs = needs,
     .check = check,
     .solve = solve_crack_case,
     .table = write_table,

@@ -407,6 +407,8 @@ static void ask(const cli_case_run *run, json_t **members)
             rb_report_json_set(members, slopes[k], json_false());
 }
 
+static const cli_case_need needs[] = {{"every", "snapshots"}, {NULL, NULL}};
+
 static const cli_case_command command = {
     .synopsis = "rollbem [OPTION...] [CASE.ini]",
     .about = about,
@@ -416,6 +418,7 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .options_last = 1,
     .files = files,
+    .needs = needs,
     .has_scales = 1,
     .check = check,
     .solve = solve_case,

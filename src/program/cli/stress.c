@@ -527,6 +527,8 @@ static void ask(const cli_case_run *run, json_t **members)
     rb_report_json_set(members, "shakedown", shakedown);
 }
 
+static const cli_case_need needs[] = {{"fringe", "fringes"}, {NULL, NULL}};
+
 static const cli_case_command command = {
     .synopsis = "rollbem stress [OPTION...] [CASE.ini]",
     .about = about,
@@ -535,6 +537,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .files = files,
+    .needs = needs,
     .has_scales = 1,
     .prepare = prepare,
     .check = check,

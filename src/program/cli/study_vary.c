@@ -378,6 +378,8 @@ cli_exit cli_study_read(study *st)
             code = add_varied(st, k);
     if (code == CLI_CONTINUE && st->factors == 0 && st->o->sample == 0)
         code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases, or --sample");
+    if (code == CLI_CONTINUE && st->o->sample == 0 && rb_option_given(st->own, "seed"))
+        code = cli_case_refuse(st->base, "seed", "only with --sample");
     return code;
 }
 

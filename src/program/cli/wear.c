@@ -160,11 +160,15 @@ static cli_exit check(cli_case_run *run)
         return cli_case_refuse(run->words, "cycles,slide", "not together with --slide");
     if (isnan(w->slide) && isnan(w->cycles))
         return cli_fail(CLI_USAGE, "wear needs --slide or --cycles");
+    if (run->c->rc.formulation == RB_STEADY && rb_option_given(&run->set, "quarter"))
+        return cli_case_refuse(run->words, "quarter", "of fretting; a wheel that rolls has none");
     if (run->c->rc.formulation == RB_STEADY && w->profile)
         return cli_case_refuse(run->words, "profile",
                                "a wheel that rolls stays round; see the radius");
     return CLI_CONTINUE;
 }
+
+static const cli_case_need needs[] = {{"every", "snapshots"}, {"quarter", "cycles"}, {NULL, NULL}};
 
 static const cli_case_command command = {
     .synopsis = "rollbem wear [OPTION...] [CASE.ini]",
@@ -174,6 +178,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .files = files,
+    .needs = needs,
     .check = check,
     .solve = solve_wear,
     .table = write_table,
