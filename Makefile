@@ -289,7 +289,7 @@ $(FEM_TESTS): $(FEM_OBJ)
 $(FEM_TESTS:=.o): CPPFLAGS += -Iexamples
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*.c src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
+CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c src/bem/*/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*.c src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@
@@ -444,7 +444,7 @@ WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
 WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))
 WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)
 # what reads words, writes tables and calls the kernels is small instead of fast: moves take as long
-WASM_SMALL = base/io program/api rolling/case rolling/study rolling/history rolling/solve analysis/sensitivity lcp/proof
+WASM_SMALL = base/io program/api rolling/case rolling/study rolling/history rolling/solve rolling/stress rolling/results rolling/notes analysis/sensitivity lcp/proof
 $(PAGE)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  WASM $<"

@@ -1,12 +1,12 @@
 /* What src/bem keeps to itself: strips in complex form, transforms and circulants, the
  * kernels of layers and of rings, the interpolative decomposition, supports, clusters. */
-#include "bem/cluster.h"
-#include "bem/fourier.h"
+#include "bem/hierarchical/cluster.h"
+#include "bem/products/fourier.h"
 #include "bem/internal.h"
 #include "bem/large.h"
-#include "bem/layer.h"
-#include "bem/ring.h"
-#include "bem/skeleton.h"
+#include "bem/layers/layer.h"
+#include "bem/layers/ring.h"
+#include "bem/hierarchical/skeleton.h"
 #include "bem/strip.h"
 #include "bem_shapes.h"
 

@@ -1,9 +1,9 @@
 /* Boundary elements behind a hierarchical matrix against the dense one and the integrals. */
-#include "bem/hierarchical.h"
-#include "bem/hierarchical_parts.h"
+#include "bem/hierarchical/hierarchical.h"
+#include "bem/hierarchical/hierarchical_parts.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
-#include "bem/mixed.h"
+#include "bem/hierarchical/mixed.h"
 #include "bem/system.h"
 #include "bem_shapes.h"
 

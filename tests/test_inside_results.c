@@ -2,7 +2,7 @@
  * which a power law or a parabola gives the exact ones, powers, columns, temperatures. */
 #include "cases.h"
 #include "rolling/history/internal.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/patches.h"
 #include "rolling/solve/power.h"
 #include "solved.h"

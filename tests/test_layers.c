@@ -13,6 +13,10 @@ static const struct {
     {"base", " base blas sparse units "},
     {"base/io", " base units sparse io io_fclib io_contact "},
     {"bem", " base sizes blas sparse bem "},
+    {"bem/mesh", " bem boundary "},
+    {"bem/layers", " blas bem "},
+    {"bem/products", " blas sizes bem "},
+    {"bem/hierarchical", " base blas bem boundary "},
     {"lcp/lemke", " base sizes blas lcp "},
     {"lcp/portfolio", " base sizes blas lcp "},
     {"lcp/proof", " base lcp "},
@@ -21,6 +25,9 @@ static const struct {
     {"rolling/case", " base sizes units io io_contact bem boundary rolling options case "},
     {"rolling/body", " base sizes blas units bem boundary lcp contact rolling options "},
     {"rolling/solve", " base sizes blas units bem lcp contact rolling options "},
+    {"rolling/stress", " bem rolling "},
+    {"rolling/results", " base units rolling "},
+    {"rolling/notes", " base units bem rolling "},
     {"rolling/history", " base blas units bem lcp contact rolling options "},
     {"rolling/study", " base blas units bem lcp contact rolling options "},
     {"rolling", " base sizes units bem contact rolling options "},
@@ -63,36 +70,65 @@ static const struct {
     {"examples/fem", "program/report/internal"},
 };
 
-/* What the parts of src/rolling include of each other: a part, and headers of the others, each
- * named for its topic. */
+/* What the folders of one room include of each other besides: a folder, and headers of the others,
+ * each named for its topic. */
 static const struct {
     const char *part, *headers;
 } parts[] = {
+    {"bem", " hierarchical/given hierarchical/hierarchical hierarchical/skeleton layers/layer "
+            "layers/ring "},
+    {"bem/mesh", " internal "},
+    {"bem/layers", " internal surface "},
+    {"bem/products", " internal layers/layer surface wheel "},
+    {"bem/hierarchical", " column incompressible internal kernels "},
     {"rolling/case", " body/body body/gap body/internal body/mesh history/history rolling "
-                     "solve/law solve/notes solve/pressed solve/resolution solve/zone "},
+                     "notes/notes solve/law solve/pressed solve/resolution "},
     {"rolling/body", " case/check case/derived case/inputs case/internal solve/model "
                      "solve/variant "},
     {"rolling/solve", " body/body body/far_field body/former_place body/gap body/internal "
                       "body/interpolant body/mesh body/perturbation body/surface case/derived "
-                      "case/check case/ellipse case/inputs case/internal "
-                      "history/history study/study "},
+                      "case/check case/ellipse case/inputs case/internal notes/note "
+                      "results/columns results/results stress/field stress/stress study/study "},
+    {"rolling/stress", " body/body body/internal body/surface case/internal results/columns "
+                       "results/results solve/given_tractions solve/heat solve/model "
+                       "solve/patches "},
+    {"rolling/results", " case/ellipse case/inputs case/internal history/history solve/solution "
+                        "stress/stress study/study "},
+    {"rolling/notes", " body/internal body/interpolant body/mesh case/ellipse case/inputs "
+                      "case/internal solve/law solve/patches solve/resolution solve/solution "
+                      "solve/zone "},
     {"rolling/history",
      " body/body body/former_place body/internal body/mesh body/surface case/derived "
-     "case/check case/inputs case/internal solve/columns solve/cycle solve/field "
+     "case/check case/inputs case/internal results/columns results/results solve/cycle "
      "solve/formulation solve/heat solve/law solve/law_iteration solve/model solve/patches "
-     "solve/power solve/resolution solve/results solve/solution solve/stress solve/variant "
-     "solve/zone "},
+     "solve/power solve/resolution solve/solution solve/variant solve/zone stress/field "
+     "stress/stress "},
     {"rolling/study", " body/body body/mesh case/check case/derived case/ellipse case/internal "
-                      "history/history history/internal history/wear "
-                      "solve/columns solve/fit solve/formulation solve/law solve/law_iteration "
-                      "solve/model solve/notes solve/patches solve/resolution solve/power "
-                      "solve/solution solve/stress solve/zone "},
-    {"rolling", " body/body body/gap case/derived history/history history/wear "
-                "solve/formulation solve/law_iteration "
-                "solve/model solve/notes solve/pressed solve/resolution solve/results "
-                "solve/solution "
-                "solve/stress solve/temperature solve/variant solve/zone study/study "},
+                      "history/history history/internal history/wear notes/notes "
+                      "results/columns solve/fit solve/formulation solve/law "
+                      "solve/law_iteration solve/model solve/patches solve/resolution "
+                      "solve/power solve/solution solve/zone stress/stress "},
+    {"rolling", " body/body body/gap case/derived history/history history/wear notes/notes "
+                "results/results solve/formulation solve/law_iteration solve/model "
+                "solve/pressed solve/resolution solve/solution solve/temperature "
+                "solve/variant solve/zone stress/stress study/study "},
 };
+
+/* The folders are of one room, src/ROOM, whose `own` lists the header FOLDER/NAME among its parts.
+ */
+static int is_shared_in_room(const char *own, const char *folder, const char *name)
+{
+    const size_t room = strcspn(own, "/");
+    if (strncmp(own, folder, room) != 0 || (folder[room] != '\0' && folder[room] != '/'))
+        return 0;
+    char header[84];
+    snprintf(header, sizeof header, folder[room] ? " %s/%s " : "%s %s ",
+             folder[room] ? folder + room + 1 : "", name);
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (strcmp(own, parts[k].part) == 0 && strstr(parts[k].headers, header))
+            return 1;
+    return 0;
+}
 
 /* The name between the quotes of an #include "FOLDER/NAME.h", split in two; FOLDER may be one
  * inside another. */
@@ -156,14 +192,8 @@ static void check_line(const char *path, int number, const char *line, const cha
         if (strcmp(own, shared[k].folder) == 0 && strcmp(header, shared[k].header) == 0)
             return;
     }
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        char header[84];
-        snprintf(header, sizeof header, " %s/%s ", strcmp(folder, "rolling") == 0 ? "" : folder + 8,
-                 name);
-        if (strcmp(own, parts[k].part) == 0 && strncmp(folder, "rolling", 7) == 0 &&
-            strstr(parts[k].headers, strcmp(folder, "rolling") == 0 ? header + 1 : header))
-            return;
-    }
+    if (is_shared_in_room(own, folder, name))
+        return;
     snprintf(word, sizeof word, " %s ", name);
     if ((strcmp(folder, "rollbem") != 0 && !is_door(folder, name)) || !strstr(headers, word))
         fail_msg("%s:%d: %s may not include %s/%s.h", path, number, own, folder, name);

@@ -9,7 +9,7 @@
  * ln(1-exp(ix)) dx  = -i [(1-exp(-ix)) ln(1-exp(ix)) - ix] I2 = int exp(-ix)
  * ln(1-exp(-ix)) dx =  i (1-exp(-ix)) [1 - ln(1-exp(-ix))] */
 #include "bem/internal.h"
-#include "bem/ring.h"
+#include "bem/layers/ring.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>

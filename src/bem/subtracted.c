@@ -5,9 +5,9 @@
 #include "bem/subtracted.h"
 #include "base/blas.h"
 #include "bem/assemble.h"
-#include "bem/given.h"
+#include "bem/hierarchical/given.h"
 #include "bem/internal.h"
-#include "bem/skeleton.h"
+#include "bem/hierarchical/skeleton.h"
 #include "bem/strip.h"
 
 #include <cblas.h>

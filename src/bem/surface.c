@@ -3,7 +3,7 @@
  * on a base (L3). */
 #include "bem/internal.h"
 #include "bem/kernels.h"
-#include "bem/layer.h"
+#include "bem/layers/layer.h"
 #include "bem/surface.h"
 
 #include <gsl/gsl_math.h>

@@ -6,7 +6,7 @@
 #include "base/sizes.h"
 #include "bem/assemble.h"
 #include "bem/bond.h"
-#include "bem/hierarchical.h"
+#include "bem/hierarchical/hierarchical.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
 #include "base/blas.h"

@@ -2,7 +2,7 @@
  * what the conditions give. */
 #include "bem/assemble.h"
 #include "bem/bond.h"
-#include "bem/hierarchical.h"
+#include "bem/hierarchical/hierarchical.h"
 #include "bem/system.h"
 #include "base/blas.h"
 

@@ -6,7 +6,7 @@
  * the disc over it, both in closed form, and what the inner contour of the wheel changes,
  * which only long waves feel. */
 #include "bem/internal.h"
-#include "bem/ring.h"
+#include "bem/layers/ring.h"
 #include "bem/wheel.h"
 #include "base/blas.h"
 

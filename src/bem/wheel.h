@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BEM_WHEEL_H
 #define ROLLBEM_BEM_WHEEL_H
 
-#include "bem/ring.h"
+#include "bem/layers/ring.h"
 #include "bem/bem.h"
 
 /* RB_EINVAL, RB_SINGULAR: wheel and ends of n_c contact elements. */

@@ -1,6 +1,6 @@
 /* One solution by Fourier transforms whose plans are kept from the case before, and the same where
  * they were pushed out by those of other lengths: processor time, medians, in turns. */
-#include "bem/fourier.h"
+#include "bem/products/fourier.h"
 #include "fast_blas.h"
 #include "rolling/rolling.h"
 #include "rows.h"

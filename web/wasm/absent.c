@@ -2,11 +2,11 @@
  * solvers. The page's ranges stay below the sizes that would need
  * them; asked for all the same, they refuse. */
 #include "program/api/internal.h"
-#include "bem/given.h"
-#include "bem/hierarchical.h"
+#include "bem/hierarchical/given.h"
+#include "bem/hierarchical/hierarchical.h"
 #include "bem/large.h"
-#include "bem/skeleton.h"
-#include "bem/stack.h"
+#include "bem/hierarchical/skeleton.h"
+#include "bem/layers/stack.h"
 #include "bem/bem.h"
 #include "rolling/body/interpolant.h"
 #include "rolling/body/mesh.h"

@@ -3,7 +3,7 @@
 #include "rolling/case/words.h"
 #include "rolling/case/rubber.h"
 #include "base/units.h"
-#include "rolling/solve/notes.h"
+#include "rolling/notes/notes.h"
 
 #include <stdio.h>
 #include <string.h>

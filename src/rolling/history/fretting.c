@@ -4,7 +4,7 @@
 #include "rolling/body/body.h"
 #include "rolling/case/derived.h"
 #include "rolling/history/internal.h"
-#include "rolling/solve/field.h"
+#include "rolling/stress/field.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,11 +5,11 @@
 #include "rolling/case/check.h"
 #include "rolling/case/internal.h"
 #include "rolling/history/row.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
 #include "rolling/solve/resolution.h"
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 #include "rolling/solve/variant.h"
 #include "rolling/solve/zone.h"
 

@@ -4,7 +4,7 @@
 #include "rolling/history/history.h"
 #include "rolling/history/internal.h"
 #include "rolling/solve/formulation.h"
-#include "rolling/solve/results.h"
+#include "rolling/results/results.h"
 
 #include <gsl/gsl_interp.h>
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "rolling/case/options.h"
 #include "rolling/history/internal.h"
 #include "rolling/history/worn.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"
 #include "rolling/solve/model.h"

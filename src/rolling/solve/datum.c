@@ -3,7 +3,7 @@
 #include "rolling/body/body.h"
 #include "rolling/body/internal.h"
 #include "rolling/case/internal.h"
-#include "rolling/solve/note.h"
+#include "rolling/notes/note.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "rolling/body/body.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/model.h"
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 #include "rolling/study/study.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Tractions that are given instead of solved for: where they begin, end and jump. */
-#include "rolling/solve/field.h"
+#include "rolling/stress/field.h"
 #include "rolling/solve/model.h"
 
 #include <math.h>

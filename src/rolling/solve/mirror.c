@@ -1,5 +1,5 @@
 /* Body B as an upper body: its image in a mirror at y = 0. */
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 
 #include <stdlib.h>
 

@@ -3,7 +3,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/solve/model.h"
 #include "rolling/solve/pressed.h"
-#include "rolling/solve/results.h"
+#include "rolling/results/results.h"
 #include "rolling/solve/solution.h"
 #include "rolling/solve/zone.h"
 

@@ -4,7 +4,7 @@
 #include "rolling/body/body.h"
 #include "rolling/body/internal.h"
 #include "rolling/body/surface.h"
-#include "rolling/solve/note.h"
+#include "rolling/notes/note.h"
 #include "rolling/solve/solution.h"
 
 #include <math.h>

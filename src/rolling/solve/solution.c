@@ -6,7 +6,7 @@
 #include "rolling/body/mesh.h"
 #include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/cycle.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/heat.h"

@@ -2,7 +2,7 @@
 #include "lcp/contact/contact.h"
 #include "rolling/case/derived.h"
 #include "rolling/solve/patches.h"
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "rolling/case/derived.h"
 #include "rolling/case/ellipse.h"
 #include "rolling/case/internal.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/fit.h"
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/law.h"

@@ -7,7 +7,7 @@
 #include "rolling/solve/patches.h"
 #include "rolling/solve/resolution.h"
 #include "rolling/solve/solution.h"
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 #include "rolling/solve/zone.h"
 #include "rolling/study/internal.h"
 #include "rolling/study/study.h"

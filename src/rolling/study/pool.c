@@ -1,7 +1,7 @@
 /* A pool of worker processes on this machine that solve the cases of a parameter study,
  * one at a time. */
 #include "rolling/solve/solution.h"
-#include "rolling/solve/stress.h"
+#include "rolling/stress/stress.h"
 #include "rolling/study/study.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* Error bars of curves and histories: every entry of a column has one, as a scalar of a
  * solution has (theory-solvers.md 5.1). */
 #include "rolling/case/derived.h"
-#include "rolling/solve/columns.h"
+#include "rolling/results/columns.h"
 #include "rolling/solve/law.h"
 #include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"

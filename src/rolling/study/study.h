@@ -5,7 +5,7 @@
 #include "base/units.h"
 #include "rolling/history/history.h"
 #include "rolling/history/wear.h"
-#include "rolling/solve/notes.h"
+#include "rolling/notes/notes.h"
 
 /* ---- Several solutions (theory-rolling.md F5) ----------------------------------- */
 
