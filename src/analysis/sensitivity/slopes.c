@@ -1,5 +1,7 @@
 /* Derivatives in columns: at every point of a curve, in every case of a study (theory-solvers.md,
- * D2). */
+ * D2).  A column is a result by a number of the case.  A derivative may have two sides, where an
+ * element stands between two zones (D1): each value is stored as a pair, left and right, and a
+ * column shows the right one, that for a growing number. */
 #include "analysis/sensitivity/derivatives.h"
 #include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"
@@ -37,6 +39,8 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
 
     if (input)
         *input++ = '\0';
+    /* a name that no row has is a mistake; one that this case has not, too; "all" takes what there
+     * is */
     const int all = strcmp(word, "all") == 0;
     const unsigned varies = rb_rolling_program_varies(&c->program);
     const rb_rolling_result *only = rb_rolling_find_result(s->table, word);
@@ -236,6 +240,7 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
     const int n = rb_case_slope_inputs(s, name);
     const rb_status known = deviation ? rb_case_read_tolerances(c, s->tolerance, &t, why) : RB_OK;
 
+    /* one tangent per input (D2) has the derivatives of all results */
     rb_status status =
         n > 0 ? rb_case_differentiate_by_numbers(c, model, n, name, &all, why) : RB_OK;
     for (int k = 0; k < s->n && status == RB_OK; k++)
@@ -312,6 +317,7 @@ static rb_status case_of_point(const curve_slopes *of, const rb_rolling_model *m
 
     if (!point)
         return rb_fail(why, RB_ENOMEM, "out of memory for a case");
+    /* one solution with one mu, at the point's place on the curve as the model was solved there */
     point->purpose = RB_CASE_SINGLE;
     point->words.mus.n = 1;
     rb_case_assign(point, rb_case_option("mu"), of->mu);
@@ -393,6 +399,7 @@ static rb_status see_point(const rb_rolling_model *model, int k, void *context, 
             to[k] = rb_rolling_number(of_case, &deviation);
     }
     rb_case_free(point);
+    /* a point without derivatives stays in the curve, with a note; only memory ends it */
     if (s == RB_ENOMEM)
         return rb_fail(why, s, "%s", reason->text);
     of->s->without += s != RB_OK;
@@ -405,7 +412,7 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
 {
     rb_rolling_case rc = c->resolved.rc;
     curve_slopes of = {c, range, mu, s, NULL, point, context};
-    /* a curve of other numbers of points is refused below */
+    /* room for a curve that returns; other numbers of points are refused below */
     const int rows =
         range->points >= 1 && range->points <= RB_ROLLING_MOST_POINTS ? 2 * range->points : 1;
     rb_status status = rb_case_slopes_alloc(rows, s);
@@ -416,6 +423,7 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
         status = deviations_alloc(c, rows, &of.deviations);
     status = status == RB_OK ? rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why)
                              : rb_fail(why, status, "out of memory for derivatives");
+    /* the curve may have fewer points than there was room for */
     s->rows = curve->n;
     curve->deviations = of.deviations;
     if (of.deviations)

@@ -1,4 +1,7 @@
-/* Entries are integrated when asked for; a circle of loads stands for all that is far (proxies). */
+/* The matrix of a mixed problem (B4) is never stored: its entries are integrated when they are
+ * asked for.  What lies far from a cluster acts on it like loads on a circle around it, because
+ * both solve the equations of equilibrium inside the circle; so a circle of a few dozen points
+ * stands for all that is far (proxies), in the rows as in the columns. */
 #include "bem/hierarchical/mixed.h"
 #include "bem/internal.h"
 
@@ -14,6 +17,8 @@ void rb_mixed_free(rb_mixed *a)
     *a = (rb_mixed){0};
 }
 
+/* Kelvin's constants with tractions in units of `factor`, so that the unknowns of a column, whether
+ * displacements or tractions, are of one size. */
 static rb_constants scaled(const rb_element *e, rb_bem_material material, double factor)
 {
     rb_constants k = rb_constants_make(e, material);
@@ -46,6 +51,7 @@ rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material, const
             element[j] = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], size);
         rb_cluster_order(a->n, element, levels, order);
     }
+    /* elements in the order of the clusters: each cluster is then a range of rows and columns */
     for (int j = 0; s == RB_OK && j < a->n; j++) {
         const int from = order[j];
         a->element[j] = element[from];
@@ -73,6 +79,7 @@ void rb_mixed_rows_free(rb_mixed_rows *r)
     *r = (rb_mixed_rows){0};
 }
 
+/* Of point q of a circle. */
 static double angle(int q, int points)
 {
     return 2.0 * M_PI * q / points;
@@ -90,6 +97,7 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row, const 
     r->element = rb_alloc_int((size_t)rows);
     if (x && r->at && r->element) {
         int last = -1;
+        /* the two rows of an element need its midpoint once */
         for (int i = 0; i < r->own; i++) {
             const int j = r->row[i] / 2;
             if (j != last) {
@@ -115,6 +123,7 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row, const 
     return s;
 }
 
+/* Values at points, two to each, become the rows that are asked for. */
 static void scatter(const rb_mixed_rows *r, const double *from, double *to, size_t step)
 {
     for (int i = 0; i < r->rows; i++)
@@ -144,18 +153,21 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
 
     if (!buffer)
         return RB_ENOMEM;
+    /* both columns of an element come from one integration over it */
     for (int c = 0; c < columns;) {
         const int j = column[c] / 2;
         double *part[4] = {NULL, NULL, NULL, NULL};
         int end = c;
         for (; end < columns && column[end] / 2 == j; end++) {
             const int k = column[end] % 2;
+            /* where displacements are given the unknown is a traction: a column of G, else of H */
             part[a->held[column[end]] ? 2 + k : k] = buffer + (size_t)k * rows;
         }
         fill(&a->constants[j], &a->element[j], point_on(r, j), &r->points, part);
         for (; c < end; c++) {
             double *to = out.x + (size_t)c * out.column_step;
             scatter(r, buffer + (size_t)(column[c] % 2) * rows, to, out.row_step);
+            /* an incompressible body: what holds its volume */
             if (a->contours.count && a->contours.contour[column[c] / 2] >= 0)
                 for (int i = 0; i < r->own; i++)
                     to[(size_t)i * out.row_step] +=
@@ -201,6 +213,7 @@ rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circ
 
     if (!buffer)
         return RB_ENOMEM;
+    /* far columns: tractions on the chords of the circle, whose displacements are of order one */
     for (int q = 0; q < points; q++) {
         const double from = angle(q, points), to = angle(q + 1, points);
         const rb_element e =
