@@ -520,6 +520,28 @@ static void check_contact(const contact *c, const table *t)
         violated("ends", "the contact reaches an end of the potential contact");
 }
 
+static int has_second_slip(const contact *c)
+{
+    return strcmp(word(c->inputs, "slip-operator"), "second") == 0;
+}
+
+static int is_fitted(const contact *c)
+{
+    return strcmp(word(c->inputs, "mesh"), "fitted") == 0;
+}
+
+/* For the law: upstream slip of fitted elements is that half-way to the next one, and the straight
+ * line through two of them has the slip of the element. */
+static double slip_at(const contact *c, const table *t, int i)
+{
+    const double *x = t->column[X], *slip = t->column[SLIP];
+
+    if (c->formulation != STEADY || !is_fitted(c) || i == 0)
+        return slip[i];
+    const double next = i + 1 < t->n ? x[i + 1] : x[i] + t->column[H][i];
+    return slip[i - 1] + (slip[i] - slip[i - 1]) * (x[i] - x[i - 1]) / (next - x[i - 1]);
+}
+
 /* The coefficients by the law, from the printed slip and temperatures; with memory of a
  * transient, or of more than a step at rest, only their range is known. */
 static void check_law(contact *c, const table *t, const json_t *object, const rows *controls)
@@ -535,13 +557,14 @@ static void check_law(contact *c, const table *t, const json_t *object, const ro
     const double most = largest_mu(c->inputs, number(c->inputs, "mu"));
     const double falls = listed(c->inputs, "mu-fall", 0) + listed(c->inputs, "mu-fall", 1);
     c->moves = c->formulation != STATIC ? heats || falls != 0.0 : d > 0.0 && falls != 0.0;
+    double ahead = 0.0;
     c->mu_of = doubles((size_t)t->n);
     if ((printed != NULL) == (is_one && !follows_way))
         violated("friction law", "the column mu does not follow --friction-law");
     for (int i = t->n - 1; i >= 0; i--) {
         const double x = t->column[X][i];
         const int open = c->formulation == STATIC || t->column[ZONE][i] == SEPARATED;
-        const double v = open ? 0.0 : V * fabs(t->column[SLIP][i]);
+        const double v = open ? 0.0 : V * fabs(slip_at(c, t, i));
         const double T = open ? T0 : json_number_value(json_array_get(warmth, (size_t)i));
         double mu = mu_by_law(c, x, v, T);
         c->mu_of[i] = !printed ? mu : json_number_value(json_array_get(printed, (size_t)i));
@@ -557,11 +580,19 @@ static void check_law(contact *c, const table *t, const json_t *object, const ro
         }
         if (d > 0.0 && c->moves && (c->formulation == TRANSIENT || c->steps))
             continue;
+        const double now = mu;
         if (d > 0.0 && c->moves && !open) {
+            const int touches = i + 1 < t->n && t->column[ZONE][i + 1] != SEPARATED;
             const double next = i + 1 < t->n ? t->column[X][i + 1] - x : t->column[H][i];
-            const double slid = fmax(v, s0 > 0.0 ? s0 : 1.0) * next / V;
-            mu += (c->mu_of[i + 1 < t->n ? i + 1 : i] - mu) * exp(-slid / d);
+            const double own = fabs(t->column[SLIP][i]);
+            const double mean =
+                has_second_slip(c) && touches ? 0.5 * (own + fabs(t->column[SLIP][i + 1])) : own;
+            const double part = fmax(V * mean, s0 > 0.0 ? s0 : 1.0) * next / V / d;
+            const double from = (has_second_slip(c) || is_fitted(c)) && touches ? ahead : now;
+            mu = (c->mu_of[i + 1 < t->n ? i + 1 : i] - from) * exp(-part) + now -
+                 (now - from) * (part > 1e-4 ? -expm1(-part) / part : 1.0 - 0.5 * part);
         }
+        ahead = now; /* what the coefficient tends to */
         /* proven is the friction that it makes */
         const double part = t->column[P][i] / largest(t->n, t->column[P]);
         expect("friction law", c->mu_of[i], mu,

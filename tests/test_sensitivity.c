@@ -37,6 +37,9 @@ static const rb_case_derivative *of(const rb_case_derivatives *all, const char *
 
 #define PLANES "support halfplane load 500 mesh uniform zone 1.2 "
 #define ROLLING "formulation steady "
+#define FALLING                                                                                    \
+    "support halfplane load 500 formulation steady similar yes creep -1e-3 friction-law "          \
+    "exponential mu 0.2 mu-fall 0.2 slip-scale 5 speed 1000 tol 1e-13 "
 #define NARROW "support halfplane mu 0.2 contact-elements 40 formulation static "
 
 static const words regimes[] = {
@@ -152,6 +155,28 @@ TEST(derivatives_are_those_of_solutions)
         }
         if (compared < 4)
             fail_msg("regime %d: only %d inputs compared", (int)k, compared);
+    }
+}
+
+/* Coefficients by the slips at both sides of an element, and what is kept of them (F1, F2); by
+ * inputs that leave fitted elements in their places, which are found less exactly. */
+TEST(laws_of_midpoints_are_differentiated)
+{
+    static const words w[] = {{{FALLING "mesh fitted"}},
+                              {{FALLING "mesh fitted memory 1e-4"}},
+                              {{FALLING "mesh uniform zone 1.2 memory 1e-4 slip-operator second"}}};
+    static const char *const inputs[] = {"creep", "mu", "mu-fall", "slip-scale", "speed"};
+    for (size_t k = 0; k < sizeof w / sizeof *w; k++) {
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&w[k], NULL, 0.0, &r);
+        int compared = 0;
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &message));
+        for (int j = 0; j < all.n; j++)
+            for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+                if (strcmp(all.of[j].name, inputs[i]) == 0)
+                    compared += compare_input(&w[k], &all.of[j], &r.solution);
+        assert_int_equal(compared, sizeof inputs / sizeof *inputs);
     }
 }
 

@@ -199,12 +199,12 @@ static double step_at(const rb_rolling_model *model, int of_friction, int i, dou
                                : -away * fmin(step, size / PLACES_AHEAD);
 }
 
-/* Derivative of the coefficients that the law gives with respect to the slip, or to the
- * friction, of element `at`; -1: to the slips of all that slip, or of those that stick, where
- * they begin to slip against their friction. */
+/* Derivative of the coefficients that the law gives with respect to the slip of element `at`, or to
+ * its friction, and to those of every apart-th element as well; 0: of it alone.  One that sticks
+ * begins to slip against its friction. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
-                                   int of_friction, int at_rest, double step, int at,
-                                   double *derivative, rb_message *why)
+                                   int of_friction, double step, int at, int apart,
+                                   const int *is_asked, double *derivative, rb_message *why)
 {
     const rb_sensitivity_stencil *places = &rb_sensitivity_ahead;
     const int n = model->problem.n;
@@ -213,10 +213,8 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
 
     memset(derivative, 0, (size_t)n * sizeof *derivative);
     for (int k = 0; k < places->n && s == RB_OK; k++) {
-        for (int i = 0; i < n; i++)
-            if (at >= 0   ? i == at
-                : at_rest ? v->state.zone[i] == RB_ZONE_STICK
-                          : v->state.zone[i] > RB_ZONE_STICK)
+        for (int i = at; i<n; i += apart> 0 ? apart : n)
+            if (!is_asked || is_asked[i])
                 x[i] += step_at(model, of_friction, i, step) * places->place[k];
         s = rb_rolling_model_friction(v, why);
         memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
@@ -224,32 +222,43 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
         for (int i = 0; i < n; i++) {
             v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
             derivative[i] += places->weight[k] * v->problem.bound[i] /
-                             step_at(model, of_friction, at >= 0 ? at : i, step);
+                             (apart > 0 ? 1.0 : step_at(model, of_friction, at, step));
         }
     }
     return s;
 }
 
-/* (F2) steadily: mu_i moves by its own slip, and by what is kept of mu_(i+1). */
-static rb_status fill_memory(rb_sensitivity *s, rb_rolling_model *v, double step, double *moved,
-                             rb_message *why)
+/* Steadily, or without memory, the coefficient of an element follows from its own slip, those of
+ * its neighbours, and what is kept of the coefficient upstream (F1, F2): the slips of every third
+ * element are changed at once. What sticks slips only where `sticks`. */
+static rb_status fill_neighbours(rb_sensitivity *s, rb_rolling_model *v, double step, int sticks,
+                                 double *moved, int *is_asked, rb_message *why)
 {
+    enum { APART = 3 };
     const rb_rolling_model *model = s->model;
-    const int *zone = model->state.zone;
+    const int *zone = model->state.zone, last = s->n - 1,
+              remembers = model->rc->friction.memory > 0;
     const size_t n = (size_t)s->n;
-    const rb_status status = differentiate_law(model, v, 0, 0, step, -1, moved, why);
+    rb_status status = RB_OK;
 
-    for (int i = 0; i < s->n && status == RB_OK; i++)
-        moved[i] *= step_at(model, 0, i, step);
-    for (int j = 0; j < s->n && status == RB_OK; j++) {
-        if (zone[j] <= RB_ZONE_STICK)
-            continue;
-        const double upstream = j + 1 < s->n ? moved[j + 1] * rb_rolling_law_kept(model, j) : 0.0;
-        double by = (moved[j] - upstream) / step_at(model, 0, j, step);
-        s->law_slip[(size_t)j + (size_t)j * n] = by;
-        for (int i = j - 1; i >= 0 && zone[i] != RB_ZONE_SEPARATED; i--)
-            s->law_slip[(size_t)i + (size_t)j * n] = by *= rb_rolling_law_kept(model, i);
+    for (int i = 0; i <= last; i++) /* what opens behind the contact counts, too */
+        is_asked[i] = zone[i] == RB_ZONE_SEPARATED ? i < last && zone[i + 1] != RB_ZONE_SEPARATED
+                                                   : (zone[i] == RB_ZONE_STICK) == sticks;
+    for (int first = 0; first < APART && status == RB_OK; first++) {
+        status = differentiate_law(model, v, 0, step, first, APART, is_asked, moved, why);
+        for (int i = 0; i <= last && status == RB_OK; i++) {
+            const int j = i - 1 + (first - i + 1 + APART * s->n) % APART;
+            if (zone[i] == RB_ZONE_SEPARATED || j < 0 || j > last || !is_asked[j])
+                continue;
+            const double kept = remembers && i < last ? rb_rolling_law_kept(model, i) : 0.0;
+            s->law_slip[(size_t)i + (size_t)j * n] =
+                (moved[i] - (kept > 0.0 ? kept * moved[i + 1] : 0.0)) / step_at(model, 0, j, step);
+        }
     }
+    for (int i = last - 1; i >= 0 && remembers && status == RB_OK; i--)
+        if (zone[i] != RB_ZONE_SEPARATED)
+            cblas_daxpy(s->n, rb_rolling_law_kept(model, i), s->law_slip + i + 1, s->n,
+                        s->law_slip + i, s->n);
     return status;
 }
 
@@ -271,9 +280,9 @@ static rb_status fill_by_creepage(rb_sensitivity *s, rb_rolling_model *v, rb_mes
     return status;
 }
 
-/* Coefficients of one element follow from its own slip alone, but where friction
- * remembers or heats: then every element asks all others. */
-static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, rb_message *why)
+/* Where friction remembers in steps, or heats, every element asks all others. */
+static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, int *is_asked,
+                          rb_message *why)
 {
     const rb_rolling_model *model = s->model;
     const rb_rolling_friction *f = &model->rc->friction;
@@ -282,19 +291,12 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
     const double slip = 5e-5 * p->slip_length, stress = 5e-5 * p->mu * p->stress;
     rb_status status = RB_OK;
 
-    if (f->memory == 0.0 && f->heat == 0.0) {
-        status = differentiate_law(model, v, 0, 0, slip, -1, scratch, why);
-        for (size_t i = 0; i < n; i++)
-            s->law_slip[i + i * n] = scratch[i];
-        if (status == RB_OK)
-            status = differentiate_law(model, v, 0, 1, slip, -1, scratch, why);
-        for (size_t i = 0; i < n; i++)
-            if (model->state.zone[i] == RB_ZONE_STICK)
-                s->law_slip[i + i * n] = scratch[i];
-        return status;
+    if (f->heat == 0.0 && (f->memory == 0.0 || model->rc->formulation == RB_STEADY)) {
+        status = fill_neighbours(s, v, slip, 0, scratch, is_asked, why);
+        return status == RB_OK && f->memory == 0.0
+                   ? fill_neighbours(s, v, slip, 1, scratch, is_asked, why)
+                   : status;
     }
-    if (f->heat == 0.0 && model->rc->formulation == RB_STEADY)
-        return fill_memory(s, v, slip, scratch, why);
     /* The friction of an element heats by the slips at both its ends: that of an element that
      * sticks by the one behind it, where the next element slips; and what opens behind the
      * contact heats its last element. */
@@ -304,11 +306,13 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
         const int *zone = model->state.zone, heats = s->law_force != NULL;
         if (zone[j] > RB_ZONE_STICK ||
             (heats && zone[j] == RB_ZONE_SEPARATED && j + 1 < n && zone[j + 1] != zone[j]))
-            status = differentiate_law(model, v, 0, 0, slip, (int)j, s->law_slip + j * n, why);
+            status =
+                differentiate_law(model, v, 0, slip, (int)j, 0, NULL, s->law_slip + j * n, why);
         if (status == RB_OK && heats &&
             (zone[j] > RB_ZONE_STICK ||
              (zone[j] == RB_ZONE_STICK && j > 0 && zone[j - 1] != zone[j])))
-            status = differentiate_law(model, v, 1, 0, stress, (int)j, s->law_force + j * n, why);
+            status =
+                differentiate_law(model, v, 1, stress, (int)j, 0, NULL, s->law_force + j * n, why);
     }
     return status;
 }
@@ -327,7 +331,8 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     s->law_force = heats ? rb_alloc(n, n) : NULL;
     s->law_xi = heats ? rb_alloc(n, 1) : NULL;
     double *scratch = rb_alloc(n, 1);
-    if (!s->law_slip || !scratch || (heats && (!s->law_force || !s->law_xi)))
+    int *is_asked = rb_alloc_int(n);
+    if (!s->law_slip || !scratch || !is_asked || (heats && (!s->law_force || !s->law_xi)))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
         status = rb_rolling_variant_create(model, model->rc, 1, 0, NULL, &v, why);
@@ -336,8 +341,9 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (status == RB_OK)
         status = rb_rolling_variant_complete(&v, NULL, NULL, why);
     if (status == RB_OK)
-        status = fill_law(s, &v, scratch, why);
+        status = fill_law(s, &v, scratch, is_asked, why);
     rb_rolling_variant_free(model, &v);
+    free(is_asked);
     free(scratch);
     return status;
 }

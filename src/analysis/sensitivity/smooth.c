@@ -5,6 +5,7 @@
 #include "analysis/sensitivity/internal.h"
 
 #include <math.h>
+#include <string.h>
 #include <stdlib.h>
 
 /* A pressure that changes by less than this part of its scale stays as it is. */
@@ -94,15 +95,18 @@ static rb_status exchange(const rb_sensitivity *s, int way, boundary *b, rb_sens
     double *left_out = slips ? &rate->slip[i] : &rate->bound[i];
     const double by = slips ? s->model->problem.slip_length : s->model->problem.mu;
 
+    /* what slips by -by obeys the law, as far as it depends on the slip, as its neighbours do */
+    const double *by_slip = slips && s->law_slip ? s->law_slip + (size_t)i * (size_t)s->n : NULL;
+    for (int j = 0; j < s->n && by_slip; j++)
+        rate->bound[j] = j != i ? -by * by_slip[j] : 0.0;
     *left_out = by;
     const rb_status status = rb_sensitivity_along(s, rate, slips ? i : -1, &b->line[way], why);
-    /* what slips by -by obeys the law, as far as it depends on the slip */
     *left_out = 0.0;
-    if (slips && s->law_slip)
-        rate->bound[i] = -by * s->law_slip[(size_t)i * (size_t)(s->n + 1)];
+    if (by_slip)
+        rate->bound[i] = -by * by_slip[i];
     if (status == RB_OK)
         b->rate[way] = condition_rate(s, way, i, rate, &b->line[way], 0);
-    rate->bound[i] = 0.0;
+    memset(rate->bound, 0, (size_t)s->n * sizeof *rate->bound);
     return status == RB_OK && !isnormal(b->rate[way])
                ? rb_fail(why, RB_SINGULAR, "smooth derivatives: element %d cannot change its zone",
                          i + 1)

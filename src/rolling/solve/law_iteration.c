@@ -65,23 +65,52 @@ static double slid_distance(const rb_rolling_model *model, int i)
                                            : fabs(lambda);
 }
 
-/* At rest slip takes no time: it is kinetic at once (F6). */
+/* 1: the law takes the slip velocity at the midpoints, where it gives the coefficients. The
+ * upstream difference is that half-way to the next one: on equal elements one error of first order
+ * among others, on graded ones it would be the only one (F1). */
+static int is_taken_at_midpoints(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_STEADY &&
+           (rc->slip_operator == RB_SLIP_SECOND || rb_rolling_mesh_is_graded(rc));
+}
+
+/* Upstream differences are taken from both sides of a midpoint, linearly. What slips by the
+ * direction of its zone does so unless the element behind it slips the other way. At rest slip
+ * takes no time: it is kinetic at once (F6). */
 static double slip_velocity(const rb_rolling_model *model, int i)
 {
-    return model->rc->formulation == RB_STATIC
-               ? INFINITY
-               : slid_distance(model, i) / model->problem.e_T[i] * model->rc->speed;
+    const double *c = model->problem.e_T, *lambda = model->state.lambda;
+    const double own = slid_distance(model, i) / c[i];
+
+    if (model->rc->formulation == RB_STATIC)
+        return INFINITY;
+    if (i == 0 || model->rc->slip_operator == RB_SLIP_SECOND || !is_taken_at_midpoints(model->rc))
+        return own * model->rc->speed;
+    const double behind = lambda[i] * own < 0.0 ? -lambda[i - 1] : lambda[i - 1];
+    const double slip = (c[i - 1] * own + c[i] * behind / c[i - 1]) / (c[i - 1] + c[i]);
+    return model->rc->speed * (behind == 0.0 ? slip : fabs(slip));
 }
 
 double rb_rolling_law_kept(const rb_rolling_model *model, int i)
 {
     const rb_rolling_friction *f = &model->rc->friction;
-    const double slid = slid_distance(model, i),
+    const int next = i + 1 < model->state.n && model->state.zone[i + 1] != RB_ZONE_SEPARATED &&
+                     model->rc->slip_operator == RB_SLIP_SECOND;
+    const double slid = next ? 0.5 * (slid_distance(model, i) + slid_distance(model, i + 1))
+                             : slid_distance(model, i),
                  least = model->rc->formulation == RB_STATIC
                              ? slid
                              : f->memory_slip * model->problem.e_T[i] / model->rc->speed;
 
     return exp(-fmax(slid, least) / f->memory);
+}
+
+/* Mean of exp(-t) from t = 0 to that of which `kept` is left. */
+static double mean_kept(double kept)
+{
+    const double t = -log(kept);
+
+    return t > 1e-5 ? -expm1(-t) / t : 1.0 - 0.5 * t;
 }
 
 /* From the leading edge on, in the order in which particles pass (F2); at rest particles stay, and
@@ -92,6 +121,7 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
     const rb_rolling_friction *f = &rc->friction;
     const rb_contact_state *state = &model->state;
     const double *x = model->bodies.f.x;
+    double law = NAN; /* what the coefficient tends to, at the midpoint before */
 
     for (int i = state->n - 1; i >= 0; i--) {
         const double at_rest = f->memory != 0.0 || state->zone[i] == RB_ZONE_SEPARATED
@@ -102,14 +132,20 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
                 rc->formulation == RB_STATIC && model->carried.mu ? model->carried.mu[i] : at_rest;
             continue;
         }
-        mu[i] = rb_rolling_law_mu(rc, x[i], slip_velocity(model, i),
-                                  temperature ? temperature[i] : rc->heat_a.temperature);
+        const double ahead =
+            i + 1 < state->n && state->zone[i + 1] != RB_ZONE_SEPARATED ? law : NAN;
+        law = rb_rolling_law_mu(rc, x[i], slip_velocity(model, i),
+                                temperature ? temperature[i] : rc->heat_a.temperature);
+        mu[i] = law;
         if (f->memory == 0.0)
             continue;
         const double before = rc->formulation == RB_STEADY
                                   ? (i + 1 < state->n ? mu[i + 1] : at_rest)
                                   : (model->carried.mu ? model->carried.mu[i] : at_rest);
-        mu[i] += (before - mu[i]) * rb_rolling_law_kept(model, i);
+        const double kept = rb_rolling_law_kept(model, i);
+        mu[i] += (before - law) * kept;
+        if (!isnan(ahead) && is_taken_at_midpoints(rc))
+            mu[i] += (ahead - law) * (mean_kept(kept) - kept);
     }
 }
 
