@@ -222,10 +222,15 @@ rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b)
 
 double rb_sparse_diagonal(const rb_sparse *a, int j)
 {
-    for (int k = a->p[j]; k < a->p[j + 1]; k++)
-        if (a->i[k] == j)
-            return a->x[k];
-    return 0.0;
+    int low = a->p[j], high = a->p[j + 1]; /* rows increase: it is in [low, high) if anywhere */
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        if (a->i[middle] < j)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < a->p[j + 1] && a->i[low] == j ? a->x[low] : 0.0;
 }
 
 /* Each column of A is gone through in order, and its entries are put behind those that their rows,

@@ -4,6 +4,7 @@
  *
  * Problem: Kwak's form (K4) of steady rolling on a half-plane, dissimilar bodies, equal
  * elements over 1.3 times the Hertz half-width; lengths in a, stresses in E* a/R. */
+#include "keep_memory.h"
 #include "lcp_families.h"
 #include "base/blas.h"
 #include "lcp/lcp.h"
@@ -639,6 +640,7 @@ int main(int argc, char **argv)
     if (core && !getenv("OPENBLAS_CORETYPE") && setenv("OPENBLAS_CORETYPE", core, 1) == 0)
         execv("/proc/self/exe", argv); /* read only while OpenBLAS is loaded */
     rb_blas_threads(1);
+    keep_memory();
     printf("Lemke's method, one thread, OpenBLAS kernels: %s\n", rb_blas_core());
     if (argc < 2) {
         compare(200, 31);

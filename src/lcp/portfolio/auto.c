@@ -31,7 +31,8 @@ enum { SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 typedef struct {
     int n;        /* order */
     int positive; /* 1: all diagonal entries are positive */
-    int begins;   /* 1: those where q is negative are, and no entry at all is negative */
+    int begins;   /* 1: those where q is negative are, and no entry at all is negative; 0 where too
+                     much is filled for Newton's method to go first */
     double part;  /* filled */
 } structure;
 
@@ -45,6 +46,7 @@ static structure read_structure(const rb_sparse *M, const double *q)
 {
     const int n = M->cols;
     structure s = {n, 1, 1, filled(M)};
+    s.begins = s.part <= MANY;
     for (int j = 0; (s.positive || s.begins) && j < n; j++) {
         const double x = rb_sparse_diagonal(M, j);
         s.positive &= x > 0.0;

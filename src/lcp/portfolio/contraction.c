@@ -4,7 +4,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 /* The largest sum |off| / diagonal of a row; beyond it other methods are faster. */
 static const double DOMINATED = 0.95;
@@ -20,43 +19,61 @@ static const double STALLS = 1e-3;
  * falling as in the last one, is given up: these steps become smaller, not larger. */
 static const double FAR = 10.0;
 
-/* The largest sum_j |M_ij| unit_j / (M_ii unit_i) over the others j; own: the diagonal, positive.
- * next: the mean of unit and of these sums over M_ii: towards those units in which the
- * ratio is the least (Perron). */
-static double domination(const rb_sparse *M, const double *own, const double *unit, double *next)
+/* others: sum_j |M_ij| unit_j over the others j of each row; becomes the mean of unit and of these
+ * sums over M_ii: towards those units in which the largest sum is the least (Perron).  own: the
+ * diagonal, positive.  Returns the largest sum / (M_ii unit_i). */
+static double towards_units(int n, const double *own, const double *unit, double *others)
 {
     double ratio = 0.0;
-    for (int i = 0; i < M->rows; i++)
-        next[i] = 0.0;
-    for (int j = 0; j < M->cols; j++)
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            if (M->i[k] != j)
-                next[M->i[k]] += fabs(M->x[k]) * unit[j];
-    for (int i = 0; i < M->rows; i++) {
-        const double others = next[i];
-        ratio = fmax(ratio, others / (own[i] * unit[i]));
-        next[i] = 0.5 * (unit[i] + others / own[i]);
+    for (int i = 0; i < n; i++) {
+        ratio = fmax(ratio, others[i] / (own[i] * unit[i]));
+        others[i] = 0.5 * (unit[i] + others[i] / own[i]);
     }
     return ratio;
 }
 
-/* own: n, the diagonal.  1: it is not positive, or in no units are the rows dominated: the least
- * ratio that units can give is the spectral radius of the matrix of |M_ij| / M_jj, j other than i,
- * and that is not below the least sum of a column (Collatz and Wielandt). */
-static int is_hopeless(const rb_sparse *M, double *own)
+/* The same, of which the sums are formed here; next: as others. */
+static double domination(const rb_sparse *M, const double *own, const double *unit, double *next)
+{
+    for (int i = 0; i < M->rows; i++)
+        next[i] = 0.0;
+    for (int j = 0; j < M->cols; j++) {
+        const double one = unit[j];
+        int k = M->p[j]; /* rows increase: those before j, then those behind */
+        for (; k < M->p[j + 1] && M->i[k] < j; k++)
+            next[M->i[k]] += fabs(M->x[k]) * one;
+        for (k += k < M->p[j + 1] && M->i[k] == j; k < M->p[j + 1]; k++)
+            next[M->i[k]] += fabs(M->x[k]) * one;
+    }
+    return towards_units(M->rows, own, unit, next);
+}
+
+/* own: n, the diagonal; others: n, sum |M_ij| of each row over the others j.  1: the diagonal is
+ * not positive, or in no units are the rows dominated: the least ratio that units can give is the
+ * spectral radius of the matrix of |M_ij| / M_jj, j other than i, and that is not below the least
+ * sum of a column (Collatz and Wielandt).  equal: all diagonal entries are. */
+static int is_hopeless(const rb_sparse *M, double *own, double *others, int *equal)
 {
     double least = INFINITY;
+    *equal = 1;
+    for (int i = 0; i < M->rows; i++)
+        others[i] = 0.0;
     for (int j = 0; j < M->cols; j++) {
-        double others = 0.0;
+        double sum = 0.0;
         own[j] = 0.0;
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+            const double x = fabs(M->x[k]);
             if (M->i[k] == j)
                 own[j] = M->x[k];
-            else
-                others += fabs(M->x[k]);
+            else {
+                sum += x;
+                others[M->i[k]] += x;
+            }
+        }
         if (!(own[j] > 0.0))
             return 1;
-        least = fmin(least, others / own[j]);
+        *equal &= own[j] == own[0];
+        least = fmin(least, sum / own[j]);
     }
     return least > DOMINATED;
 }
@@ -72,21 +89,24 @@ rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options
     double *unit = rb_arena_doubles(&scratch, (size_t)n, 1),
            *next = rb_arena_doubles(&scratch, (size_t)n, 1),
            *own = rb_arena_doubles(&scratch, (size_t)n, 1);
-    rb_status s = scratch.failed ? RB_ENOMEM : is_hopeless(p->M, own) ? RB_SINGULAR : RB_OK;
+    int equal = 0;
+    rb_status s = scratch.failed                         ? RB_ENOMEM
+                  : is_hopeless(p->M, own, next, &equal) ? RB_SINGULAR
+                                                         : RB_OK;
     double ratio = INFINITY;
     for (int i = 0; s == RB_OK && i < n; i++)
         unit[i] = 1.0;
+    /* Ones come first; then, since columns may have units of their own, those of the diagonal,
+     * unless they are ones, too; from there on each trial follows the one before. */
+    const int follows = equal ? 1 : 2;
     for (int k = 0; s == RB_OK && k < TRIALS && !(ratio <= DOMINATED); k++) {
-        if (k == 1) /* columns may have units of their own: begin with those of the diagonal */
-            for (int i = 0; i < n; i++)
-                next[i] = 1.0 / own[i];
-        if (k > 0)
-            memcpy(unit, next, (size_t)n * sizeof *unit);
+        for (int i = 0; k && i < n; i++)
+            unit[i] = k < follows ? 1.0 / own[i] : next[i];
         const double last = ratio;
-        ratio = domination(p->M, own, unit, next);
-        if (!isfinite(ratio) || (k > 1 && fabs(ratio - last) <= STALLS * last))
+        ratio = k ? domination(p->M, own, unit, next) : towards_units(n, own, unit, next);
+        if (!isfinite(ratio) || (k >= follows && fabs(ratio - last) <= STALLS * last))
             break;
-        if (k > 1 && ratio > FAR && ratio * pow(ratio / last, TRIALS - 1 - k) > DOMINATED)
+        if (k >= follows && ratio > FAR && ratio * pow(ratio / last, TRIALS - 1 - k) > DOMINATED)
             break;
     }
     if (s == RB_OK && !(ratio <= DOMINATED))
