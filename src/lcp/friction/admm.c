@@ -59,8 +59,7 @@ static rb_status factor(admm *a)
         for (int i = 0; i < d; i++)
             a->A[(c * d + i) * d + i] = a->penalty / t->measure->rho[2 * c];
     const rb_status st = rb_friction_local_factor(&a->system, a->A, a->B);
-    t->info->flops += a->system.flops;
-    a->system.flops = 0.0;
+    rb_friction_system_count(&a->system, t);
     return st;
 }
 
@@ -136,8 +135,8 @@ static rb_status go_on_alternating(void *state)
         }
         rb_anderson_step(&a->anderson, a->before, a->x, a->r);
         split(a);
-        t->info->flops += a->system.flops + (46.0 + 8.0 * a->anderson.used) * t->m;
-        a->system.flops = 0.0;
+        t->info->flops += (46.0 + 8.0 * a->anderson.used) * t->m;
+        rb_friction_system_count(&a->system, t);
         a->k++;
         t->info->iters++;
         if (a->k == a->next) {

@@ -1,14 +1,15 @@
 /* The portfolio: methods that run in turns until one satisfies the tolerance.
  *
- * The first member runs first, and the operations that it used are the first allowance L.
- * Then the members continue in turns, each from its last iterate, until its own
- * operations reach its share of L; L grows by the factor GROWTH from round to round.
- * When a member succeeds after T operations, L < GROWTH T / share, and the other members
- * have used at most their shares of this L, which bounds the total (docs/friction.md).
+ * The first member runs first, and what it has spent is the first allowance L.  Then the members
+ * continue in turns, each from its last iterate, until what it has spent itself reaches its share
+ * of L; L grows by the factor GROWTH from round to round.  When a member succeeds after it has
+ * spent T, L < GROWTH T / share, and the other members have spent at most their shares of this L,
+ * which bounds the total: shares of 1, 0.75, 1 and 0.05 give 2.8 T for a member of share 1
+ * (docs/friction.md).
  * Sweeps that stall early leave a first allowance which is less than what Newton's method needs
- * from there.  It may then use more than its share once, before the others begin.
- * Operations are counted by formulas, so that the same problem always takes the same
- * path. */
+ * from there.  It may then spend more than its share once, before the others begin.
+ * What is spent are operations, and those that the sparse LUs could make in the rest of their
+ * time.  Both are counted by formulas, so that the same problem always takes the same path. */
 #include "lcp/friction/internal.h"
 #include "base/sizes.h"
 
@@ -17,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GROWTH 1.1
+#define GROWTH 1.05
 /* Nobody goes on beyond this. */
 #define MOST_OPERATIONS 1e11
 /* Where the norm over all contacts is met but a contact that carries little is not, other functions
@@ -53,8 +54,11 @@ static const stage plain_sweeps[] = {
     {&rb_friction_sweeps, 0, 300000, FROM_START},
     {&rb_friction_sweeps, RB_FRICTION_SWEEP_PROJECTION, 5000, FROM_START},
     {NULL, 0, 0, FROM_START}};
-/* From sweeps Jean-Moreau's function is the one that cycles least. */
-static const stage newton_after_sweeps[] = {{&rb_friction_newton, JM, 16, FROM_BEST},
+/* From sweeps Jean and Moreau's function and Fischer and Burmeister's are those that cycle least;
+ * the first has the smaller systems, without the contacts that are open.  Where they converge from
+ * there at all, they do so within some ten steps. */
+static const stage newton_after_sweeps[] = {{&rb_friction_newton, JM, 12, FROM_BEST},
+                                            {&rb_friction_newton, FB, 15, FROM_BEST},
                                             {&rb_friction_newton, AC, 12, FROM_BEST},
                                             {&rb_friction_newton, FB | SEARCH, 15, FROM_START},
                                             {&rb_friction_newton, AC | SEARCH, 25, FROM_START},
@@ -96,21 +100,27 @@ typedef struct {
     double share;
     first_turn first; /* 0: it is not the first */
     double on_stall; /* share of the first allowance where the first member has stalled; 0: share */
+    double on_stall_near; /* the same where it has stalled at an error below NEAR */
 } plan;
 
 enum { MEMBERS = 4 };
 
+/* Newton's methods converge from an error below this one more often than not: heaps and walls, on
+ * which they fail, leave the sweeps at errors of 1e-3 to 1e-1, those on which they do not, at 1e-6
+ * to 1e-5. */
+#define NEAR 1e-4
+
 /* Some sweeps are cheap where W is there and solve most problems.  The global form has to
  * be condensed for them, which costs little for rigid bodies and for few contacts on a
  * large structure. */
-static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}, 0.0},
-                                         {newton_after_sweeps, 0.7, {0, 0}, 1.5},
-                                         {alternating, 1.0, {0, 0}, 0.0},
-                                         {plain_sweeps, 0.1, {0, 0}, 0.0}};
-static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}, 0.0},
-                                          {sweeps, 0.7, {0, 0}, 0.0},
-                                          {alternating, 1.0, {0, 0}, 0.0},
-                                          {plain_sweeps, 0.1, {0, 0}, 0.0}};
+static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}, 0.0, 0.0},
+                                         {newton_after_sweeps, 0.75, {0, 0}, 3.0, 30.0},
+                                         {alternating, 1.0, {0, 0}, 0.0, 0.0},
+                                         {plain_sweeps, 0.05, {0, 0}, 0.0, 0.0}};
+static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}, 0.0, 0.0},
+                                          {sweeps, 0.7, {0, 0}, 0.0, 0.0},
+                                          {alternating, 1.0, {0, 0}, 0.0, 0.0},
+                                          {plain_sweeps, 0.1, {0, 0}, 0.0, 0.0}};
 
 typedef struct {
     const plan *plan;
@@ -296,7 +306,7 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
                                         ? 20.0 * order * fmin(order * order, 1e4)
                                     : t->shared->local ? rb_friction_lemke_pairs_flops(t, 2.0 * m)
                                                        : 5.0 * tableau * tableau * tableau;
-                paused = a->info.flops + cost > allowance;
+                paused = rb_friction_task_spent(t) + cost > allowance;
                 s = paused ? RB_MAXITER : method->run(t, a->solver->variant);
             } else {
                 s = method->go_on(a->state);
@@ -304,7 +314,7 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
                 if (again)
                     s = polish(a);
                 paused = !again && s == RB_MAXITER &&
-                         (a->info.flops >= t->budget ||
+                         (rb_friction_task_spent(t) >= t->budget ||
                           (end && a->info.iters >= end && a->info.iters != a->stage_end));
             }
         }
@@ -378,15 +388,16 @@ static rb_status run_auto(rb_friction_task *task, int variant)
         if (!p.memory)
             s = RB_ENOMEM;
     }
-    double allowance = fmax(first->info.flops, 1.0);
+    double allowance = fmax(rb_friction_task_spent(&first->task), 1.0);
     /* Its sweeps have paused before their number was reached. */
     int stalled = first->solver && first->info.iters < plans->first.iterations;
+    const int near = task->best->error < NEAR;
     for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(&p);) {
         left = 0;
         for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
             member *a = winner = &p.member[k];
-            const double share =
-                stalled && a->plan->on_stall > 0.0 ? a->plan->on_stall : a->plan->share;
+            const double head = near ? a->plan->on_stall_near : a->plan->on_stall;
+            const double share = stalled && head > 0.0 ? head : a->plan->share;
             if (!a->over)
                 s = take_turn(&p, a, allowance * share, NULL);
             left += !a->over;
@@ -403,6 +414,7 @@ static rb_status run_auto(rb_friction_task *task, int variant)
     for (int k = 0; k < p.members; k++) {
         info->iters += p.member[k].info.iters;
         info->flops += p.member[k].info.flops;
+        task->beside += p.member[k].task.beside;
     }
     task->proved = from->proved;
     if (!task->proved)

@@ -251,7 +251,7 @@ static rb_status go_on_sweeping(void *state)
             accelerate(s, change) != RB_OK)
             return RB_ENOMEM;
         if (stalled && (s->flags & RB_FRICTION_SWEEP_YIELD) && isinf(t->budget))
-            t->budget = t->info->flops;
+            t->budget = rb_friction_task_spent(t);
     }
     return RB_MAXITER;
 }

@@ -203,7 +203,9 @@ typedef struct {
     rb_friction_info *info;
     int d, contacts, m, n; /* n: 0 for the local form */
     double deadline;       /* on rb_seconds(); 0: none */
-    double budget;         /* value of info->flops at which a method pauses; INFINITY: never */
+    double beside;         /* of the systems, as rb_friction_system has it, in operations */
+    double budget;         /* value of info->flops + beside at which a method pauses; INFINITY:
+                              never */
     int proved;            /* 1: rb_friction_prove has accepted r */
     int tries;             /* so often a method pauses where the norm over all contacts is met, but
                               not that of a contact */
@@ -299,6 +301,8 @@ typedef struct {
     int *pivots;
     size_t order; /* order for which memory is allocated */
     double flops;
+    double beside; /* the operations that a sweep could make in the time that sparse LUs take
+                      beside theirs: for searching pivots and moving entries */
 } rb_friction_system;
 
 /* n: the task's; 0: the local form, also if the problem is global and W has been condensed. */
@@ -310,12 +314,17 @@ void rb_friction_system_velocity(const rb_friction_system *system, double consta
 /* e = K v - H r - f; nothing for the local form */
 void rb_friction_system_imbalance(const rb_friction_system *system, const double *r,
                                   const double *v, double *e);
-/* Operations that the first step may take, from the pattern of its matrix alone. */
+/* Operations that the first step may take, with those beside, from the pattern of its matrix alone.
+ */
 rb_status rb_friction_system_estimate(rb_friction_system *system, double *flops);
+/* Adds to the task's what the system has counted since the last time. */
+void rb_friction_system_count(rb_friction_system *system, rb_friction_task *task);
 /* The beginning of a method of such steps, once: assesses the start and, under a budget,
  * estimates the first step.  RB_MAXITER: it goes on. */
 rb_status rb_friction_system_begin(rb_friction_system *system, rb_friction_task *task, int *begun,
                                    double *cost);
+/* What the budget is compared with. */
+double rb_friction_task_spent(const rb_friction_task *task);
 /* 1: the budget is enough for so many operations; else the method pauses. */
 int rb_friction_task_affords(rb_friction_task *task, double flops);
 /* at: of all contacts, one after the other; e: n.  dr: m, dv: n, written. */
@@ -327,6 +336,11 @@ rb_status rb_friction_system_step(rb_friction_system *system, const rb_friction_
 int rb_friction_system_is_dense(int order, double fill);
 rb_status rb_friction_system_dense(rb_friction_system *system, size_t order);
 rb_status rb_friction_system_solve_dense(rb_friction_system *system, int order, char transposed);
+/* Of rb_friction_system's `beside`, per entry of the matrix of a sparse LU: its time is that of 200
+ * to 500 operations of a sweep beside its own (matrices of 1000 to 160000 entries). */
+#define RB_FRICTION_LU_ENTRY 350.0
+/* Per entry of the factors in each solve with them. */
+#define RB_FRICTION_LU_SOLVE 4.0
 /* Local form (system_local.c): its pattern; the step, written into x. */
 rb_status rb_friction_local_pattern(rb_friction_system *system);
 /* Factorises A + B W, and solves with x as the right-hand side, any number of times. */
@@ -343,7 +357,7 @@ typedef struct rb_friction_method {
     rb_status (*run)(rb_friction_task *task, int variant); /* NULL: in parts */
     size_t size;                                           /* of the state */
     rb_status (*start)(rb_friction_task *task, int variant, void *state);
-    /* RB_MAXITER with info->flops at or beyond the task's budget: paused. */
+    /* RB_MAXITER with the task's budget spent: paused. */
     rb_status (*go_on)(void *state);
     void (*finish)(void *state);
 } rb_friction_method;

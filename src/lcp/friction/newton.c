@@ -82,7 +82,7 @@ static double evaluate(newton *s, const double *r, const double *u, double *F)
 static rb_status step(newton *s)
 {
     rb_friction_task *t = s->task;
-    const double before = t->info->flops;
+    const double before = rb_friction_task_spent(t);
     const double merit = evaluate(s, t->r, t->u, s->at.F);
     rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
     rb_status st = RB_SINGULAR;
@@ -130,9 +130,8 @@ static rb_status step(newton *s)
             t->v[i] += length * s->dv[i];
         t->info->iters++;
     }
-    t->info->flops += s->system.flops;
-    s->system.flops = 0.0;
-    s->last = t->info->flops - before;
+    rb_friction_system_count(&s->system, t);
+    s->last = rb_friction_task_spent(t) - before;
     return st;
 }
 

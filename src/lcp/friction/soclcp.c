@@ -382,7 +382,7 @@ static rb_status run_smoothing(rb_friction_task *task, int variant)
         const int limit = rb_friction_task_left(t, LIMIT);
         st = rb_friction_smooth(&smooth, limit, z, &t->info->iters);
         friction_accepts(&f, z);
-        task->info->flops += f.system.flops;
+        rb_friction_system_count(&f.system, task);
         rb_friction_system_free(&f.system);
     }
     free(z);

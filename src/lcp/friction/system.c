@@ -161,6 +161,7 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
     rb_status st = s->lu ? RB_OK : rb_sparse_lu_create(&s->j, &s->lu);
     if (st == RB_OK)
         st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+    s->beside += RB_FRICTION_LU_ENTRY * s->j.p[order];
     if (st == RB_OK)
         st = rb_sparse_lu_solve_transposed(s->lu, s->rhs, s->x);
     s->flops += 4.0 * s->j.p[s->j.cols];
@@ -178,7 +179,21 @@ rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
         return st;
     if (!s->lu)
         st = s->n ? rb_sparse_lu_create(&s->j, &s->lu) : rb_friction_local_pattern(s);
-    return st == RB_OK ? rb_sparse_lu_estimate(&s->j, flops) : st;
+    if (st == RB_OK)
+        st = rb_sparse_lu_estimate(&s->j, flops);
+    if (s->lu) { /* the orderings take about as long as a factorisation of a sparse matrix */
+        const double beside = RB_FRICTION_LU_ENTRY * s->j.p[s->j.cols];
+        *flops += beside;
+        s->beside += beside;
+    }
+    return st;
+}
+
+void rb_friction_system_count(rb_friction_system *s, rb_friction_task *task)
+{
+    task->info->flops += s->flops;
+    task->beside += s->beside;
+    s->flops = s->beside = 0.0;
 }
 
 rb_status rb_friction_system_begin(rb_friction_system *s, rb_friction_task *task, int *begun,
@@ -187,11 +202,12 @@ rb_status rb_friction_system_begin(rb_friction_system *s, rb_friction_task *task
     if (*begun)
         return RB_MAXITER;
     *begun = 1;
-    const rb_status st = rb_friction_task_assess(task);
-    return st == RB_MAXITER && isfinite(task->budget) &&
-                   rb_friction_system_estimate(s, cost) == RB_ENOMEM
-               ? RB_ENOMEM
-               : st;
+    rb_status st = rb_friction_task_assess(task);
+    if (st == RB_MAXITER && isfinite(task->budget) &&
+        rb_friction_system_estimate(s, cost) == RB_ENOMEM)
+        st = RB_ENOMEM;
+    rb_friction_system_count(s, task);
+    return st;
 }
 
 rb_status rb_friction_system_step(rb_friction_system *s, const rb_friction_linearised *at,

@@ -87,6 +87,7 @@ rb_status rb_friction_local_factor(rb_friction_system *s, const double *A, const
                     for (int a = 0; k == w->diag[c] && a < d; a++)
                         x[a] += A[c * dd + a + b * d];
                 }
+        s->beside += RB_FRICTION_LU_ENTRY * s->j.p[s->j.cols];
         return rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
     }
     const rb_status st = rb_friction_system_dense(s, (size_t)s->m);
@@ -111,6 +112,7 @@ rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
     for (int k = 0; k < s->m; k++)
         s->rhs[k] = x[k];
     s->flops += 2.0 * rb_sparse_lu_entries(s->lu);
+    s->beside += RB_FRICTION_LU_SOLVE * rb_sparse_lu_entries(s->lu);
     return rb_sparse_lu_solve_once(s->lu, s->rhs, x);
 }
 

@@ -198,7 +198,7 @@ int rb_friction_task_left(const rb_friction_task *task, int own)
 
 int rb_friction_task_goes_on(const rb_friction_task *task)
 {
-    return task->info->flops < task->budget && rb_friction_task_left(task, 1);
+    return rb_friction_task_spent(task) < task->budget && rb_friction_task_left(task, 1);
 }
 
 int rb_friction_task_late(const rb_friction_task *task)
@@ -207,11 +207,16 @@ int rb_friction_task_late(const rb_friction_task *task)
            (task->deadline > 0.0 && rb_seconds() > task->deadline);
 }
 
+double rb_friction_task_spent(const rb_friction_task *task)
+{
+    return task->info->flops + task->beside;
+}
+
 int rb_friction_task_affords(rb_friction_task *task, double flops)
 {
-    if (!(task->info->flops + flops > task->budget))
+    if (!(rb_friction_task_spent(task) + flops > task->budget))
         return 1;
-    task->budget = task->info->flops;
+    task->budget = rb_friction_task_spent(task);
     return 0;
 }
 
@@ -224,7 +229,7 @@ rb_status rb_friction_task_status(rb_friction_task *task, double error, int stan
     if (error <= task->opt.tol && task->tries > 0) {
         task->tries--;
         task->nearly = 1;
-        task->budget = task->info->flops;
+        task->budget = rb_friction_task_spent(task);
         return RB_MAXITER;
     }
     if (!isfinite(error))
