@@ -60,7 +60,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst tools/bench/%.c,$(B)/bench/%,$(wildcard tools/bench/bench_*.c))
 
-.PHONY: some-tests journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
+.PHONY: test-rest some-tests journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -68,6 +68,7 @@ help:
 	@echo "make run        install missing packages, build, solve and print a wheel on a rail"
 	@echo "make test       install missing packages, build, run all tests; T=rolling_wheel: that one"
 	@echo "                T=rolling_wheel NAME=a_test: that function; ROLLBEM_TEST_TURN=N: which rows of long tests"
+	@echo "make test-rest  rows of long tests that make test leaves to its next REST=7 turns"
 	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/validation.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
@@ -132,6 +133,15 @@ OTHERS := tests/octave tests/install tests/release tests/figures tests/formulas 
 # only the summary line comes last: continuous integration reads it
 check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/course/.drawn) $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
+
+# what make test leaves to the next turns: of the programs whose tests take turns the rows of so many more, and
+# the whole of those of which make test runs one smoke test
+REST ?= 7
+IN_TURNS = $(patsubst tests/%.c,$(B)/tests/%,$(shell grep -lE '\bis_in_turn\(|\bIN_TURN\(|\brun_pages?\(' tests/test_*.c)) \
+    tests/page tests/site tests/python tests/install tests/release tests/formulas tests/figures $(wildcard tests/journeys/*)
+test-rest: all page-where-possible $(if $(shell command -v gnuplot),$(B)/course/.drawn) $(TESTS) $(B)/packings $(B)/bench/bench_large
+	@turn=$${ROLLBEM_TEST_TURN:-$$(date +%-j)}; ROLLBEM_TEST_TURN=$$((turn + 1)) ROLLBEM_TEST_TURNS=$(REST) B=$(B) \
+		tests/run $(filter $(IN_TURNS),$(LONGEST) $(filter-out $(LONGEST),$(OTHERS)))
 
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
 # can run, each with the next turn of long tests; make test-all: all but those that compute nothing or
@@ -473,10 +483,10 @@ page-where-possible:
 
 # what people of several kinds do on their first day; pictures stay in $(B)/journeys
 journeys: all
-	@B=$(B) tests/run $(wildcard tests/journeys/*)
+	@ROLLBEM_TEST_TURNS=8 B=$(B) tests/run $(wildcard tests/journeys/*)
 
 # with what the tests of the package need
-python-test: ; @tools/scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python
+python-test: ; @tools/scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && ROLLBEM_TEST_TURNS=8 B=$(B) tests/run tests/python
 
 # the page's scripts and styles as web/biome.json has them; biome comes from the npm registry
 page-format: ; @web/lint $(B) format --write

@@ -257,12 +257,22 @@ static inline const char *outside_data(const char *name)
 
 /* A test that is too long for every run takes its items in turn: 1 where item k belongs to this
  * run, one of `parts`.  The turn is ROLLBEM_TEST_TURN (tests/run takes the day of the year and
- * prints it), 0 where it is not set; ROLLBEM_TEST_ALL runs all. */
+ * prints it), 0 where it is not set.  ROLLBEM_TEST_TURNS runs so many turns at once, from that one
+ * on; ROLLBEM_TEST_ALL runs all. */
 static inline int is_in_turn(int k, int parts)
 {
-    const char *turn = getenv("ROLLBEM_TEST_TURN");
-    return getenv("ROLLBEM_TEST_ALL") || (k + (turn ? atoi(turn) : 0)) % parts == 0;
+    const char *turn = getenv("ROLLBEM_TEST_TURN"), *turns = getenv("ROLLBEM_TEST_TURNS");
+    const int waits = parts - 1 - (k + (turn ? atoi(turn) : 0) + parts - 1) % parts;
+    return getenv("ROLLBEM_TEST_ALL") || waits < (turns ? atoi(turns) : 1);
 }
+
+/* At the beginning of a test that is one of several of a kind, the k-th: it is skipped unless it is
+ * its turn. */
+#define IN_TURN(k, parts)                                                                          \
+    do {                                                                                           \
+        if (!is_in_turn(k, parts))                                                                 \
+            skip();                                                                                \
+    } while (0)
 
 /* 1 under the address sanitizer, which reserves terabytes and replaces malloc. */
 #if defined(__SANITIZE_ADDRESS__)

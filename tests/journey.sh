@@ -1,6 +1,12 @@
 # What the scripts of tests/journeys have in common; they begin with `. tests/journey.sh`, from the top
 # of the checkout.  One installed tree, $B/journeys/installed, serves all of them; each works in a
-# folder of its own.  Pictures go to $pictures, where they stay to be looked at.
+# folder of its own.  Pictures go to $pictures, where they stay to be looked at.  In the suite
+# (ROLLBEM_TEST_TURN) one in $parts of them.
+. tests/in_turn.sh
+if ! in_turn "$(ls tests/journeys | grep -n -x "$(basename "$0")" | cut -d: -f1)" "${parts:-4}"; then
+    echo "[  SKIPPED ] $(basename "$0"): its turn comes every fourth day"
+    exit 0
+fi
 B=$(cd "${B:-build}" && pwd)
 root=$PWD installed=$B/journeys/installed pictures=$B/journeys
 mkdir -p "$pictures"

@@ -85,7 +85,7 @@ static const struct {
 TEST(bad_arguments_are_refused)
 {
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
-        if (is_in_turn((int)k, 3))
+        if (is_in_turn((int)k, 8))
             check_refused(bad[k].arguments, bad[k].code, bad[k].part);
 }
 
@@ -412,6 +412,8 @@ TEST(bad_rows_are_named_by_their_line)
          "h.txt:2: expected 3 numbers (distance, load, creep), got 2"},
         {"load creep\n50 0\n", "h.txt: history: transient rolling needs a column"}};
     for (size_t k = 0; k < sizeof histories / sizeof histories[0]; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         write_file("h.txt", histories[k][0]);
         check_refused("--support halfplane --similar --formulation transient --history h.txt", 65,
                       histories[k][1]);
@@ -585,7 +587,7 @@ TEST(powers_balance)
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[500];
-        if (!is_in_turn((int)k, 4))
+        if (!is_in_turn((int)k, 8))
             continue;
         snprintf(line, sizeof line,
                  "--young 210000 --poisson 0.3 --radius 50 --half-width 1 --mu 0.3 --gap parabola "
@@ -705,6 +707,7 @@ TEST(fitted_is_the_default_for_steady)
 
 TEST(pictures_are_drawn)
 {
+    IN_TURN(0, 4);
     struct stat st;
     assert_int_equal(rollbem("curve " SIMILAR "--points 9 --contact-elements 20 --mu "
                              "0.1,0.3 --quiet --plot curve.svg"),
@@ -770,7 +773,7 @@ TEST(pictures_in_sizes)
         {"example truss --nodes 4", "plot", 361, 535},
         {"example bar", "plot", 361, 321}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
-        if (!is_in_turn((int)k, 5))
+        if (!is_in_turn((int)k, 8))
             continue;
         const struct {
             const char *name;
@@ -864,6 +867,8 @@ TEST(a_picture_without_friction_names_none)
 {
     static const char *const mu[] = {"0", "0.3"};
     for (int k = 0; k < 2; k++) {
+        if (!is_in_turn(k, 2))
+            continue;
         char line[200];
         rb_format(line, sizeof line,
                   SIMILAR "--contact-elements 20 --mu %s --plot a.svg --output out.tsv --quiet",
@@ -937,7 +942,7 @@ TEST(pictures_name_the_case)
          "band2 = 2"}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         char line[400];
-        if (!is_in_turn((int)k, 3))
+        if (!is_in_turn((int)k, 8))
             continue;
         snprintf(line, sizeof line,
                  "%s --contact-elements 20 --quiet --output out.tsv --%s named.svg "
@@ -954,6 +959,8 @@ TEST(temperature_below_a_wheel_says_what_it_is)
 {
     static const char *const support[] = {"halfplane", "hub"};
     for (int k = 0; k < 2; k++) {
+        if (!is_in_turn(k, 2))
+            continue;
         if (shellf("\"$R\" stress --support %s --load 500 --mu 0.3 --formulation steady --creep "
                    "-0.02 --speed 1000 --conductivity 50 --heat-capacity 3.6 --contact-elements 20 "
                    "--grid 3x3 > warm.tsv",
@@ -969,6 +976,8 @@ TEST(fretting_has_a_picture)
 {
     static const char *const of_b[] = {"--similar", ""}, *const band[] = {"band2 = 3", "band2 = 0"};
     for (int k = 0; k < 2; k++) {
+        if (!is_in_turn(k, 2))
+            continue;
         if (shellf(
                 "printf 'force_ratio\\n0\\n0.6\\n-0.6\\n0.6\\n-0.6\\n0.6\\n' > frets.txt; \"$R\" "
                 "--support halfplane %s --load 100 --formulation static --history frets.txt "
@@ -995,6 +1004,8 @@ TEST(own_templates_draw_the_table)
          "max_depth_mm"}};
     char text[200];
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
+        if (!is_in_turn((int)k, 5))
+            continue;
         snprintf(text, sizeof text,
                  "set title title\nplot $table using '%s':'%s' with lines title 'mine'\n",
                  pictures[k].x, pictures[k].y);
@@ -1017,6 +1028,8 @@ TEST(own_templates_draw_the_table)
 TEST(pictures_of_varied_bodies_name_none)
 {
     for (int k = 0; k < 2; k++) {
+        if (!is_in_turn(k, 2))
+            continue;
         char line[300];
         snprintf(line, sizeof line,
                  "sweep --restart " SIMILAR "--contact-elements 20 --vary-1 '%s' --show "
@@ -1114,6 +1127,7 @@ TEST(a_large_bound_leaves_room_to_the_pressure)
  * label of a contour. */
 TEST(the_largest_stress_covers_no_contour)
 {
+    IN_TURN(1, 4);
     held_json *root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
                                "--plot-script s.gp");
     const json_t *maxima = json_object_get(root, "maxima");
@@ -1134,6 +1148,8 @@ TEST(a_whole_wheel_is_shown)
                                "40 --grid 17x5 --quiet ";
     char text[600];
     for (int of_b = 0; of_b < 2; of_b++) {
+        if (!is_in_turn(of_b, 2))
+            continue;
         rb_format(text, sizeof text, "%s--json %s", line, bodies[of_b]);
         held_json *root = run_json(text);
         const json_t *y = json_object_get(json_object_get(root, "grid"), "y_mm");
@@ -1329,6 +1345,8 @@ TEST(a_datum_that_is_too_near_is_said)
     char command[400];
 
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         snprintf(command, sizeof command,
                  "--radius 5 --young 11.3 --poisson -0.1446 --support halfplane "
                  "--layer-thickness 3.373 --base-poisson 0.3 --radius-b 5 --similar --mu 3 "

@@ -21,12 +21,12 @@ TEST(blocks_print_what_the_pages_show)
     char *page[2 * LESSONS + PAGES]; /* each lesson before its solutions */
     size_t n = 0;
     for (size_t k = 0; k < LESSONS; k++)
-        if (is_in_turn((int)k, 3)) {
+        if (is_in_turn((int)k, 8)) {
             page[n++] = lessons.gl_pathv[k];
             page[n++] = solutions.gl_pathv[k];
         }
     for (size_t k = 0; k < PAGES; k++)
-        if (is_in_turn((int)k, 3))
+        if (is_in_turn((int)k, 4))
             page[n++] = pages[k];
     assert_int_equal(run_pages(page, n, 1, 1, folder), 0);
 }

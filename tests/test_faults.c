@@ -529,7 +529,8 @@ static int preloaded(void)
 }
 
 /* The calls of each job are its own: what one tries does not depend on those before it.  A part of
- * them each time, another one in the next turn. */
+ * them each time, another one in the next turn; jobs take turns whose number has no factor in
+ * common with it, so that each meets every part. */
 enum { PARTS = 8 };
 
 static int fail_every_call(const job *j)
@@ -560,12 +561,12 @@ TEST(every_call_that_allocates)
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++)
-        if (is_in_turn(i, 6))
+        if (is_in_turn(i, 7))
             tried += fail_every_call(&jobs[i]);
     const char *const *line = allocating;
     for (int part = 0; part < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); part++, line++)
         for (int i = 0; *line; line++, i++)
-            if (is_in_turn(i, 12))
+            if (is_in_turn(i, 17))
                 tried += fail_every_call(&(job){
                     .name = *line, .arguments = *line, .rows = strncmp(*line, "sweep ", 6) == 0});
     none_wrong(tried, "calls that allocate");
@@ -578,7 +579,7 @@ TEST(every_allocation_from_one_on)
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++) {
-        if (!is_in_turn(i, 6))
+        if (!is_in_turn(i, 7))
             continue;
         make_reference(&jobs[i]);
         const fault_server server = start_server();

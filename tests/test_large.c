@@ -33,6 +33,8 @@ static rb_rolling_case steady(pairing pair, int elements)
 TEST(a_law_that_is_followed_equals_one_begun_at_rest)
 {
     for (int k = 0; k < 4; k++) {
+        if (!is_in_turn(k, 4))
+            continue;
         rb_rolling_case rc = steady(k % 2 ? SIMILAR : DISSIMILAR, 200);
         OWNED(rb_rolling_solution) followed = {0}, begun = {0};
         set(&rc, "friction-law exponential mu-fall 0.1 slip-scale 2 speed 1000");
@@ -93,10 +95,12 @@ static void compare_with_matrix(const rb_rolling_case *rc)
 TEST(equals_the_matrix_in_steady_rolling)
 {
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
-    compare_with_matrix(&rc);
+    if (is_in_turn(0, 2))
+        compare_with_matrix(&rc);
     rc = steady(SIMILAR, RB_ROLLING_LARGE);
     set(&rc, "creep-ratio nan force-ratio -0.5");
-    compare_with_matrix(&rc);
+    if (is_in_turn(1, 2))
+        compare_with_matrix(&rc);
 }
 
 TEST(equals_the_matrix_in_static_contact)

@@ -83,6 +83,8 @@ TEST(forty_mistakes_get_a_line_that_helps)
     write_file("one.txt", "1\n2\n3\n");
     assert_true(sizeof mistakes / sizeof *mistakes >= 40);
     for (size_t k = 0; k < sizeof mistakes / sizeof *mistakes; k++) {
+        if (!is_in_turn((int)k, 8))
+            continue;
         char first[200];
         const char *wanted = mistakes[k].wanted, *other = strchr(wanted, '|');
         const int code = rollbem(mistakes[k].arguments);
@@ -135,6 +137,8 @@ TEST(own_options_in_a_file_are_refused_with_their_line)
     };
     write_file("creep.tsv", "creep\tforce\n0.001\t-3\n0.002\t-5\n");
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         char text[300], arguments[60];
         snprintf(text, sizeof text, HALFPLANES "%s", all[k].text);
         write_file("own.ini", text);
@@ -447,7 +451,7 @@ TEST(refusals_have_their_code_and_reason)
     write_file("unit.txt", "mu load_foo\n0.1 1\n");
     write_file("game.txt", "2 2\n1 2\n3 4\n1 2\n3 4\n");
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (is_in_turn((int)k, 3))
+        if (is_in_turn((int)k, 8))
             check_refused(all[k].arguments, all[k].code, all[k].said);
 }
 
@@ -462,6 +466,8 @@ TEST(doubtful_values_are_noted)
         {"--arc 0.5", "in radians, write --arc"},
         {"--example rail --radius 0.46", "far beyond linear elasticity"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         rollbem(all[k][0]);
         const char *note = strstr(err, all[k][1]), *summary = strstr(err, "  load ");
         if (!note || !summary)
@@ -553,6 +559,8 @@ TEST(terminals_get_short_help)
     if (shell("command -v script") != 0)
         skip();
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         assert_int_equal(
             shellf("PAGER=cat script -qec \"'$R' %s --help\" typescript", all[k].command), 0);
         const char *own = strstr(out, all[k].group), *common = strstr(out, "The most used options");
@@ -635,7 +643,7 @@ TEST(no_command_is_wider_than_a_terminal)
         skip();
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char line[700];
-        if (!is_in_turn((int)k, 3))
+        if (!is_in_turn((int)k, 8))
             continue;
         snprintf(line, sizeof line,
                  "EXAMPLES='%s/examples'; PAGER=cat script -qec \"stty rows 24 cols 80; "
@@ -665,6 +673,8 @@ TEST(closed_pipes_end_in_silence)
         "--help", "--contact-elements 3000 --support halfplane --mu 0 --quiet", "help mesh",
         "examples", "--help=all"};
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         assert_int_equal(shellf("\"$R\" %s | head -n 1", commands[k]), 0);
         assert_string_equal(err, "");
     }

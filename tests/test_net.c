@@ -1213,7 +1213,7 @@ TEST(test_every_conflict_is_refused)
     covering c = array_of(2);
     covering_start(&c);
     for (int k = 0; k < parsed_n; k++) {
-        if (!parsed[k].reason || !is_in_turn(k, 4))
+        if (!parsed[k].reason || !is_in_turn(k, 8))
             continue;
         excused = k;
         c.random = 20061; /* whatever conflicts come before */

@@ -89,6 +89,7 @@ static void skip_without(const char *probe, const char *program_name)
 
 TEST(pandas_opens_all)
 {
+    IN_TURN(0, 3);
     skip_without(PYTHON_HAS("pandas"), "pandas");
     check_lines("/usr/bin/python3 lines", "python", 0);
     check_tables("/usr/bin/python3 script >listed",
@@ -105,6 +106,7 @@ TEST(pandas_opens_all)
 
 TEST(numpy_opens_all)
 {
+    IN_TURN(1, 3);
     skip_without(PYTHON_HAS("numpy"), "numpy");
     check_lines("/usr/bin/python3 lines", "python", 1);
     check_tables("/usr/bin/python3 script >listed",
@@ -116,6 +118,7 @@ TEST(numpy_opens_all)
 
 TEST(r_opens_all)
 {
+    IN_TURN(0, 3);
     skip_without("Rscript --version", "R");
     check_lines("Rscript --vanilla lines", "r", 0);
     check_tables("Rscript --vanilla script >listed",
@@ -128,6 +131,7 @@ TEST(r_opens_all)
 
 TEST(octave_opens_all)
 {
+    IN_TURN(1, 3);
     skip_without("octave-cli --version", "Octave");
     check_lines("octave-cli --no-init-file --quiet lines", "octave", 0);
     write_file("script",
@@ -148,6 +152,7 @@ TEST(octave_opens_all)
 
 TEST(gnuplot_opens_all)
 {
+    IN_TURN(2, 3);
     skip_without("gnuplot --version", "gnuplot");
     check_lines("{ echo 'set terminal unknown'; cat lines; } | gnuplot 2>&1 | tail -1", "gnuplot",
                 0);

@@ -127,46 +127,19 @@ static void record_is_met(void **state)
     }
 }
 
-/* Those that take half a second or more, most of it for integrals, searches and gnuplot, take
- * turns: one of three, unless they are asked for. */
-static int is_left_out(const char *name)
+static int is_record(const struct dirent *e)
 {
-    enum { TURNS = 3 };
-    static const char *const slow[] = {"verify",
-                                       "wall",
-                                       "law-steps",
-                                       "lcp-paths",
-                                       "friction-solvers",
-                                       "picture-bar",
-                                       "picture-stress-si",
-                                       "picture-fringes-falling",
-                                       "refused-odds",
-                                       "lcp-all-json",
-                                       "wall-interrupted",
-                                       "picture-fringes",
-                                       "bar",
-                                       "soclcp-steps",
-                                       "outputs-of-no-file",
-                                       "picture-fringes-column",
-                                       "picture-bar-slide",
-                                       "wall-first-step",
-                                       "steady-yield-solvers",
-                                       "picture-bar-column",
-                                       "steady-patches",
-                                       "history-begun-anew",
-                                       "picture-stress-hub"};
-    for (size_t k = 0; k < sizeof slow / sizeof *slow; k++)
-        if (strcmp(name, slow[k]) == 0)
-            return !is_in_turn((int)k, TURNS);
-    return 0;
+    return e->d_name[0] != '.';
 }
 
-/* A test for every record, or for those of this name, which may have * and ?. */
+/* A test for every record, or for those of this name, which may have * and ?.  By their names, so
+ * that those of a kind stand together, one of four in each turn, unless they are asked for. */
 int main(int argc, char **argv)
 {
-    enum { ENOUGH = 200 };
+    enum { ENOUGH = 200, TURNS = 4 };
     static struct CMUnitTest tests[ENOUGH];
     static char names[ENOUGH][100], here[500], examples[600];
+    struct dirent **found = NULL;
     int n = 0;
     if (!getcwd(here, sizeof here))
         return 1;
@@ -175,16 +148,18 @@ int main(int argc, char **argv)
     setenv("EXAMPLES", examples, 1);
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
-    DIR *dir = opendir(records);
-    for (const struct dirent *e; dir && n < ENOUGH && (e = readdir(dir)) != NULL;)
-        if (e->d_name[0] != '.' &&
-            (argc > 1 || getenv("ROLLBEM_RECORD") || !is_left_out(e->d_name))) {
-            snprintf(names[n], sizeof names[n], "%.99s", e->d_name);
+    const int all = scandir(records, &found, is_record, alphasort);
+    if (all > ENOUGH)
+        return 1;
+    for (int k = 0; k < all; k++) {
+        if (argc > 1 || getenv("ROLLBEM_RECORD") || is_in_turn(k, TURNS)) {
+            snprintf(names[n], sizeof names[n], "%.99s", found[k]->d_name);
             tests[n] = (struct CMUnitTest){names[n], record_is_met, NULL, NULL, names[n]};
             n++;
         }
-    if (dir)
-        closedir(dir);
+        free(found[k]);
+    }
+    free(found);
     if (n == 0)
         return 1;
     return _cmocka_run_group_tests("records", tests, (size_t)n, enter_folder, leave_folder);

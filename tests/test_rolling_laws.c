@@ -330,8 +330,7 @@ TEST(short_steps_are_solved)
  * the branch goes on from the coefficients before. */
 TEST(branches_outlive_their_mesh)
 {
-    if (!is_in_turn(1, 3))
-        skip();
+    IN_TURN(1, 8);
     rb_rolling_case rc = with(rail(2.0), "zone auto mesh fitted contact-elements 60 creep nan");
     OWNED(rb_rolling_curve) c;
     double widest = 0.0;
@@ -915,7 +914,7 @@ TEST(a_static_coefficient_counts_by_its_distance)
               {100, 0.05, 100.0, 1.0722},
               {100, 0.2, 36.788, 1.1700}};
     for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
-        if (!is_in_turn((int)k, 3))
+        if (!is_in_turn((int)k, 5))
             continue;
         double at;
         const rb_rolling_case rc = pushed(of[k].elements, of[k].distance, of[k].datum);

@@ -120,6 +120,8 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
 TEST(many_elements_wear_without_a_matrix)
 {
     for (int slides = 0; slides < 2; slides++) {
+        if (!is_in_turn(slides, 2))
+            continue;
         double depth[2];
         for (int many = 0; many < 2; many++) {
             run r = {.stop_at = -1};

@@ -365,6 +365,8 @@ static void check_sentences(int n, const sentence *all, int code)
     int wrong = 0;
     for (int k = 0; k < n; k++)
         for (int says = 1; says >= 0; says--) {
+            if (!is_in_turn(k, 4))
+                continue;
             const char *arguments = says ? all[k].says : all[k].silent;
             const int got = rollbem(arguments);
             if (got == (says ? code : 0) && (strstr(err, all[k].words) != NULL) == says)
@@ -425,6 +427,8 @@ TEST(notes_go_through_every_door)
     char said[sizeof err], line[400];
 
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
+        if (!is_in_turn((int)k, 3))
+            continue;
         held_json *root = run_json(commands[k]);
         const json_t *list = json_object_get(root, "notes");
         size_t notes_said = 0;

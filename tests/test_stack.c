@@ -280,6 +280,8 @@ TEST(points_and_bonds_of_three_layers)
                          {{13.991, -.9921}, {65.317, .4974}, {8.650, -.9962}},
                          {{6.0415, -1.1817}, {126.133, .5114}, {2.976, -1.1817}}}};
     for (int rigid = 0; rigid < 2; rigid++) {
+        if (!is_in_turn(rigid, 2))
+            continue;
         rb_rolling_case rc = rolling_case("support halfplane base-young %g base-poisson 0.3 load 1",
                                           rigid ? 0.0 : 210e3);
         OWNED(rb_rolling_model) model = {0};
@@ -495,6 +497,8 @@ TEST(doors_and_refusals)
     };
     char line[600];
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         snprintf(line, sizeof line,
                  "%s \"$R\" --support halfplane --layers s.csv --load 100 --creep 0 %s", file,
                  lines[k].more);

@@ -1,5 +1,6 @@
 """Verdicts as tests/run reads them, and the program to compare with."""
 
+import collections
 import json
 import os
 import subprocess
@@ -36,11 +37,35 @@ def pytest_collectreport(report):
         print(f"[  FAILED  ] {report.nodeid}\n{report.longreprtext}", flush=True)
 
 
-def in_turn(k, parts):
-    """For tests too long for every run: k-th of those that take turns, as tests/check.h has them."""
+def is_in_turn(k, parts):
+    """Is the k-th item run, of so many parts one in each run, as tests/check.h has it?  All are where no turn is given."""
     turn = os.environ.get("ROLLBEM_TEST_TURN")
-    return pytest.mark.skipif(turn is not None and "ROLLBEM_TEST_ALL" not in os.environ and (k + int(turn)) % parts != 0,
-                              reason=f"its turn comes every {parts} days")
+    return turn is None or "ROLLBEM_TEST_ALL" in os.environ or -(k + int(turn)) % parts < int(os.environ.get("ROLLBEM_TEST_TURNS", 1))
+
+
+TURNS = 8  # of the tests of each file one in so many, and those marked @smoke in every run
+smoke = pytest.mark.smoke
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "smoke: in every run of the suite")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items):
+    met, chosen = collections.Counter(), []
+    for item in items:
+        if is_in_turn(met[item.path], TURNS) or item.get_closest_marker("smoke"):
+            chosen.append(item)
+        met[item.path] += 1
+    if len(chosen) < len(items):
+        print(f"[  SKIPPED ] tests of other turns: {len(items) - len(chosen)} of {len(items)}", flush=True)
+    items[:] = chosen
+
+
+def pytest_sessionfinish(session, exitstatus):
+    if exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:  # under sanitizers it may be no turn of the few
+        session.exitstatus = pytest.ExitCode.OK
 
 
 def words(options):

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, in_turn, words
+from conftest import PROGRAM, ROOT, words
 
 import rollbem
 
@@ -83,7 +83,6 @@ def test_contact_runs_the_cases_of_a_file(tmp_path):
     assert len(cases[0]["table"]["x_mm"]) == cases[0]["NPOT"]
 
 
-@in_turn(0, 4)
 def test_verify_gives_every_reference():
     found = rollbem.verify()
     printed = (ROOT / "tests/recorded/verify").read_text()  # what the program prints, by tests/test_recorded.c
@@ -201,7 +200,6 @@ def test_tables_for_pandas():
     assert len(wear) == 4 and wear["worn"].is_monotonic_increasing
 
 
-@in_turn(1, 4)
 def test_notebooks_show_pictures():
     module("matplotlib")
     from matplotlib import pyplot
@@ -217,7 +215,6 @@ def test_notebooks_show_pictures():
     assert "<pre>" in rollbem.stress(points=[[0.0, 0.5]], **ROLLED)._repr_html_()  # no picture of points
 
 
-@in_turn(2, 4)
 def test_a_notebook_runs_through():
     nbformat, nbclient = module("nbformat"), module("nbclient")
     module("ipykernel"), module("matplotlib"), module("pandas")

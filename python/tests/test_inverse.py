@@ -6,7 +6,7 @@ import threading
 
 import numpy as np
 import pytest
-from conftest import in_turn, run_json
+from conftest import run_json
 
 import rollbem
 
@@ -327,7 +327,6 @@ def test_fits(tmp_path):
     assert by_file["mu"].correlation == pytest.approx(printed["correlation"], rel=1e-6)
 
 
-@in_turn(3, 4)
 def test_data_of_fits():
     pandas = pytest.importorskip("pandas")
     xi = -0.5e-3 * np.arange(1, 13)

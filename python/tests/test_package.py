@@ -20,7 +20,7 @@ from typing import Optional
 
 import numpy as np
 import pytest
-from conftest import ROOT, in_turn
+from conftest import ROOT
 
 import rollbem
 from rollbem import _library
@@ -112,7 +112,7 @@ def test_long_runs_end_by_control_c(call):
     assert out == "ended\n" and worked < 5, f"{out!r}, {worked:.1f} s of work"
 
 
-@pytest.mark.parametrize("asked, call", [pytest.param(*calls, marks=in_turn(k, 7)) for k, calls in enumerate([
+@pytest.mark.parametrize("asked, call", [
     ("rollbem.solve(support='halfplane', load=500., contact_elements=300, mesh='uniform', solver='newton')", "s.lcp()"),
     ("rollbem.solve(support='arc', contact_elements=20, outer_elements=1500)", "s.H"),
     ("rollbem.solve(support='hub', load=500., contact_elements=60)", "rollbem.stress(s, grid=(600, 600))"),
@@ -121,7 +121,7 @@ def test_long_runs_end_by_control_c(call):
     ("0", "rollbem.sweep(crack_angle=[20 + k / 50 for k in range(2000)], support='halfplane', load=500., similar=True,"
      " contact_elements=200)"),
     ("0", "rollbem.crack(support='halfplane', load=500., similar=True, passes=1000, contact_elements=400)"),
-])])
+])
 def test_interrupted_calls_leave_their_object_whole(asked, call):
     """Memory that such a call uses is not freed or used again before it has ended: six times one after the other."""
     program = f"""
@@ -213,7 +213,6 @@ def test_friction_over_the_way():
         assert (abs(abs(s.q) - most)[s.zone > 1] < 1e-6).all() and (s.zone > 1).any()
 
 
-@in_turn(3, 4)
 def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     base = {k: v for k, v in ROLLED.items() if k not in ("formulation", "creep_ratio")}
@@ -340,9 +339,9 @@ def results():
 
 
 @pytest.mark.parametrize("again", [
-    pytest.param(copy.copy, id="copy", marks=in_turn(0, 3)),
-    pytest.param(copy.deepcopy, id="deepcopy", marks=in_turn(1, 3)),
-    pytest.param(lambda x: pickle.loads(pickle.dumps(x)), id="pickle", marks=in_turn(2, 3)),
+    pytest.param(copy.copy, id="copy"),
+    pytest.param(copy.deepcopy, id="deepcopy"),
+    pytest.param(lambda x: pickle.loads(pickle.dumps(x)), id="pickle"),
     pytest.param(lambda x: copy.deepcopy(pickle.loads(pickle.dumps(x))), id="deepcopy of pickle"),
 ])
 def test_results_are_copied(again):
@@ -386,7 +385,6 @@ def refused(mu):
     return rollbem.solve(mu=mu, zone=1.0, contact_elements=12)
 
 
-@in_turn(0, 4)
 def test_a_thousand_results_cross_processes():
     all_mu = np.linspace(0.1, 0.5, 1000)
     with ProcessPoolExecutor(2) as pool:

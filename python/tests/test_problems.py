@@ -1,7 +1,6 @@
 """Complementarity problems, games and friction problems by themselves, and files of other programs."""
 
 import itertools
-import os
 import random
 import subprocess
 import sys
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 
 import rollbem
-from conftest import ROOT, in_turn, run
+from conftest import ROOT, is_in_turn, run
 
 sparse = pytest.importorskip("scipy.sparse")
 
@@ -38,7 +37,6 @@ def test_bounds(lower, upper):
     assert np.allclose(again.z, s.z) and again.iterations <= s.iterations
 
 
-@in_turn(1, 4)
 def test_sparse_matrices_stay_sparse():
     """99856 unknowns in less than 200 MB, NumPy and SciPy among them; dense they would take 80 GB."""
     program = """
@@ -255,9 +253,9 @@ def nearly_singular(k):
 
 def test_lists_next_to_singular_bases():
     """Of 600 problems, a third in every run: proved solutions are solutions, and none is missing where no basis is undecided."""
-    turn, undecided, nearby, several, checked = os.environ.get("ROLLBEM_TEST_TURN"), 0, 0, 0, 0
+    undecided, nearby, several, checked = 0, 0, 0, 0
     for k in range(600):
-        if turn is not None and "ROLLBEM_TEST_ALL" not in os.environ and (k // 3 + int(turn)) % 3:
+        if not is_in_turn(k // 3, 3):
             continue
         checked += 1
         M, q = nearly_singular(k)
