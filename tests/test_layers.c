@@ -95,8 +95,8 @@ static const struct {
     {"rolling/results", " case/ellipse case/inputs case/internal history/history solve/solution "
                         "stress/stress study/study "},
     {"rolling/notes", " body/internal body/interpolant body/mesh case/ellipse case/inputs "
-                      "case/internal solve/law solve/patches solve/resolution solve/solution "
-                      "solve/zone "},
+                      "case/internal results/results solve/law solve/patches "
+                      "solve/resolution solve/solution solve/zone "},
     {"rolling/history",
      " body/body body/former_place body/internal body/mesh body/surface case/derived "
      "case/check case/inputs case/internal results/columns results/results solve/cycle "

@@ -82,7 +82,7 @@ static void write_all(char *text, size_t size)
     CHECK_OK(rb_case_solve(c, NULL, NULL, &result, &message));
     const rb_rolling_solution *s = &result.solution;
     const rb_report_style style = {0};
-    const rb_rolling_note_list notes = rb_case_find_notes(words, s);
+    const rb_rolling_note_list notes = rb_case_find_notes(words, s, NULL);
     CHECK_OK(rb_report_table(out, &c->rc, s, &notes, "rollbem", &style));
     json_t *inputs = rb_report_json_inputs(words);
     CHECK_OK(rb_report_json_write(out, inputs));

@@ -77,6 +77,7 @@ typedef struct {
                        step */
     rb_rolling_errors errors;
     int elements; /* number needed for the required accuracy; 0: none required */
+    struct rb_rolling_study_notes *of_steps; /* notes on steps before the last; NULL: none; owned */
 } rb_case_result;
 
 /* Solves a case: steady and static cases at once, transients and histories step by step,

@@ -173,8 +173,9 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
     k -= own;
     if ((s->n == 0 && a->rows.rows == 0) || k < 0)
         return NULL;
-    rb_rolling_note_list list = a->rows.rows > 0 ? rb_rolling_list_study_notes(&a->rows, a->row)
-                                                 : rb_case_find_notes(a->words, s);
+    rb_rolling_note_list list = a->rows.rows > 0
+                                    ? rb_rolling_list_study_notes(&a->rows, a->row)
+                                    : rb_case_find_notes(a->words, s, a->result.of_steps);
     if (a->rows.rows > 0 && strcmp(a->row, "point") == 0) /* those of a study are its rows' */
         rb_case_note_materials(a->words, &list);
     const int missing = list.status != RB_OK;

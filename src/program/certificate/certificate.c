@@ -248,6 +248,7 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
         rb_rolling_note_list notes =
             is_given ? (rb_rolling_note_list){.n = 0}
                      : rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, &p.r.solution);
+        rb_rolling_list_step_notes(p.r.of_steps, "step", &notes);
         confirm_materials(root, of->words, &notes);
         *again = rb_report_json_document(&(rb_report_document){
             .command = rb_certificate_word(root, "command"),
@@ -281,6 +282,7 @@ static rb_status write_crack(rb_certificate *c, void *context, json_t **again, r
         rb_rolling_note_list notes =
             contact->n > 0 ? rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, contact)
                            : (rb_rolling_note_list){.n = 0};
+        rb_rolling_list_step_notes(r.contact.of_steps, "step", &notes);
         confirm_materials(of->root, of->words, &notes);
         *again = rb_report_json_document(
             &(rb_report_document){.command = rb_certificate_word(of->root, "command"),

@@ -239,8 +239,11 @@ static rb_status restore_step(rb_certificate *c, const rb_resolved_case *resolve
 
 typedef struct {
     rb_certificate *c;
-    const json_t *residual; /* printed, an entry per step */
+    const rb_resolved_case *resolved;
+    const json_t *residual;        /* printed, an entry per step */
+    rb_rolling_study_notes *notes; /* on the steps before the last */
     rb_status status;
+    rb_message *why;
 } step_check;
 
 static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h, int step,
@@ -250,7 +253,10 @@ static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h
     rb_certificate *c = j->c;
 
     (void)h;
-    (void)steps;
+    j->status =
+        rb_rolling_note_step(j->notes, &j->resolved->rc, RB_UNITS_MM, model, step, steps, j->why);
+    if (!c->judges || j->status != RB_OK)
+        return j->status != RB_OK;
     c->step = step + 1;
     c->model = model;
     rb_certificate_tolerances(c, json_number_value(json_array_get(j->residual, (size_t)step)));
@@ -268,11 +274,15 @@ static rb_status follow(rb_certificate *c, const rb_resolved_case *resolved,
 {
     const json_t *history = stored->history, *states = json_object_get(history, "states");
     const int steps = (int)json_array_size(json_object_get(history, "approach"));
-    step_check j = {c, json_object_get(history, "residual"), RB_OK};
+    step_check j = {
+        .c = c, .resolved = resolved, .residual = json_object_get(history, "residual"), .why = why};
     const rb_rolling_observer observer = {judge_step, &j};
 
     if (steps < 1)
         return rb_certificate_refuse(c, "no steps", why);
+    j.notes = r->of_steps = calloc(1, sizeof *r->of_steps);
+    if (!r->of_steps)
+        return RB_ENOMEM;
     rb_status s = rb_rolling_states_alloc(n, steps, to);
     const struct {
         const json_t *of;
@@ -314,8 +324,7 @@ static rb_status follow(rb_certificate *c, const rb_resolved_case *resolved,
     to->rows.jumped = (int)json_integer_value(json_object_get(history, "jump_row"));
     to->program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
-        s = rb_rolling_history_follow(&resolved->rc, to, c->judges ? &observer : NULL, &r->model,
-                                      &r->history, why);
+        s = rb_rolling_history_follow(&resolved->rc, to, &observer, &r->model, &r->history, why);
     return j.status != RB_OK ? j.status : s;
 }
 

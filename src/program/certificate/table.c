@@ -107,7 +107,7 @@ static rb_status write_table(rb_certificate *c, void *context, json_t **again, r
         char *text = NULL;
         size_t size;
         FILE *lines = open_memstream(&text, &size);
-        const rb_rolling_note_list notes = rb_case_find_notes(of->words, &r.solution);
+        const rb_rolling_note_list notes = rb_case_find_notes(of->words, &r.solution, NULL);
         s = lines ? rb_report_table(lines, &resolved->rc, &r.solution, &notes, of->command,
                                     &(rb_report_style){.format = RB_REPORT_TSV})
                   : RB_ENOMEM;

@@ -117,7 +117,7 @@ cli_exit cli_case_refuse(const rb_case *c, const char *about, const char *format
 static rb_rolling_note_list find_notes(const cli_case_run *run)
 {
     if (!run->of_rows)
-        return rb_case_find_notes(run->words, run->solution);
+        return rb_case_find_notes(run->words, run->solution, run->of_steps);
     rb_rolling_note_list notes = *run->of_rows;
     rb_case_note_materials(run->words, &notes);
     return notes;

@@ -68,9 +68,10 @@ typedef struct {
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
     const rb_rolling_note_list *of_rows; /* notes on the rows of a curve; NULL: on the solution */
-    const rb_rolling_note_list *notes;   /* all notes, the same for standard error, tables, JSON */
-    int printable;                       /* 1: there are results, if not all that were asked for */
-    int incomplete;                      /* 1: not all of them, although nothing has failed */
+    const rb_rolling_study_notes *of_steps; /* notes on steps before the solution's; or NULL */
+    const rb_rolling_note_list *notes; /* all notes, the same for standard error, tables, JSON */
+    int printable;                     /* 1: there are results, if not all that were asked for */
+    int incomplete;                    /* 1: not all of them, although nothing has failed */
 } cli_case_run;
 
 /* A file that an option of the command asks for, written or drawn by one of the two

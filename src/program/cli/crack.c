@@ -76,6 +76,7 @@ static rb_status solve_crack_case(cli_case_run *run, rb_message *why)
     cli_interrupts_leave();
     rb_case_crack_convert(r, run->c->units);
     run->solution = r->contact.solution.n > 0 ? &r->contact.solution : NULL;
+    run->of_steps = r->contact.of_steps;
     run->printable = s == RB_OK || (s == RB_INTERRUPTED && r->history.n > 0);
     return s;
 }

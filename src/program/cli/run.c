@@ -92,7 +92,7 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         rb_status s = rb_rolling_model_solution(model, &solution, w->why);
         rb_rolling_solution_convert(&solution, w->units);
         if (s == RB_OK) {
-            const rb_rolling_note_list notes = rb_case_find_notes(asked->words, &solution);
+            const rb_rolling_note_list notes = rb_case_find_notes(asked->words, &solution, NULL);
             s = cli_write_snapshot(asked->snapshots, step + 1, model->rc, &solution, &notes,
                                    &asked->style, w->why);
         }

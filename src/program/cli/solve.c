@@ -147,7 +147,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
     const cli_case_run *run = context;
     const solved *it = run->own;
     (void)why;
-    return rb_report_history(out, &it->r.history, cli_command_line(), &run->o.style);
+    return rb_report_history(out, &it->r.history, run->notes, cli_command_line(), &run->o.style);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
@@ -278,6 +278,7 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
     if (it->r.history.n == 0) /* nothing to write, not even of the first step */
         it->history_table = it->history_plot = it->fretting_plot = NULL;
     run->solution = &it->r.solution;
+    run->of_steps = it->r.of_steps;
     run->printable = s >= 0 && it->r.solution.n > 0;
     return s;
 }

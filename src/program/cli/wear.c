@@ -16,7 +16,8 @@ typedef struct {
     rb_report_wear report;
     rb_rolling_wear_history history;
     rb_rolling_solution last;
-    rb_status failed; /* of a snapshot */
+    rb_rolling_study_notes notes; /* on the rows before the last one */
+    rb_status failed;             /* of a snapshot or a note */
     rb_message why;
 } wear;
 
@@ -66,8 +67,13 @@ static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, 
     const cli_case_run *run = context;
     wear *w = run->own;
     rb_rolling_solution_convert(s, run->c->units);
-    if (w->snapshots && (step % w->every == 0 || step == steps))
-        w->failed = cli_write_snapshot(w->snapshots, step, NULL, s, NULL, &run->o.style, &w->why);
+    w->failed = rb_rolling_add_step_notes(&w->notes, &run->c->rc, s, step, steps + 1);
+    if (w->failed != RB_OK)
+        rb_fail(&w->why, w->failed, "out of memory for notes");
+    if (w->failed == RB_OK && w->snapshots && (step % w->every == 0 || step == steps)) {
+        const rb_rolling_note_list found = rb_case_find_notes(run->words, s, NULL);
+        w->failed = cli_write_snapshot(w->snapshots, step, NULL, s, &found, &run->o.style, &w->why);
+    }
     if (w->failed == RB_OK)
         w->failed = rb_report_wear_keep(&w->report, s, h, step, steps);
     return cli_interrupted() || w->failed != RB_OK;
@@ -98,6 +104,7 @@ static rb_status solve_wear(cli_case_run *run, rb_message *why)
         s = w->failed;
     }
     run->solution = &w->last;
+    run->of_steps = &w->notes;
     run->printable = s >= 0 && w->history.n > 0;
     return s;
 }

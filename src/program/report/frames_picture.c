@@ -123,7 +123,7 @@ static void let_frames(FILE *out, const view *v)
 
 static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    return rb_report_history(out, of, "", style);
+    return rb_report_history(out, of, NULL, "", style);
 }
 
 static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)

@@ -24,7 +24,8 @@ static int parts_of(const rb_rolling_history *h, rb_report_columns part[3])
     return n;
 }
 
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
+                            const rb_rolling_note_list *notes, const char *command,
                             const rb_report_style *style)
 {
     rb_report_columns part[3];
@@ -38,7 +39,8 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *
                           "the step, 0 at rest; shift: so far");
     rb_report_comment(&c, "moment: int x p dx, > 0: the load acts ahead of x = 0; edges of the "
                           "contact: NaN without contact");
-    return rb_report_end_columns(&c, h->n, parts, part);
+    const rb_status noted = rb_report_comment_notes(&c, notes);
+    return noted == RB_OK ? rb_report_end_columns(&c, h->n, parts, part) : noted;
 }
 
 json_t *rb_report_json_history(const rb_rolling_history *h)

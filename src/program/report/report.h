@@ -93,9 +93,10 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
                           const rb_rolling_note_list *notes, const char *command,
                           const rb_report_style *style);
 
-/* The steps of a transient or a static history, one row each; error bars, if any, are in
- * additional columns error_*. */
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
+/* The steps of a transient or a static history, one row each, below the notes (NULL: none); error
+ * bars, if any, are in additional columns error_*. */
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
+                            const rb_rolling_note_list *notes, const char *command,
                             const rb_report_style *style);
 
 /* ---- JSON ------------------------------------------------------------------------- */

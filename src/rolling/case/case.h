@@ -248,9 +248,10 @@ int rb_case_given(const rb_case *c, const char *name);
 const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room);
 /* A modulus that was given as a hardness: how far the relations differ.  k as before. */
 const char *rb_case_hardness(const rb_case *c, int k, char *text, size_t room);
-/* The notes on a solution of the case (NULL: none), in its units, and these sentences behind them.
- */
-rb_rolling_note_list rb_case_find_notes(const rb_case *c, const rb_rolling_solution *s);
+/* The notes on a solution of the case (NULL: none), in its units, those on steps before it (NULL:
+ * none), and these sentences behind them. */
+rb_rolling_note_list rb_case_find_notes(const rb_case *c, const rb_rolling_solution *s,
+                                        const rb_rolling_study_notes *of_steps);
 /* Adds these sentences to the notes on a result, or on a row of a study, of kinds that begin here,
  * behind those of cracks. */
 enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 11 };

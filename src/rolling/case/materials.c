@@ -113,12 +113,14 @@ void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes)
     }
 }
 
-rb_rolling_note_list rb_case_find_notes(const rb_case *c, const rb_rolling_solution *s)
+rb_rolling_note_list rb_case_find_notes(const rb_case *c, const rb_rolling_solution *s,
+                                        const rb_rolling_study_notes *of_steps)
 {
     rb_rolling_note_list notes = {.n = 0};
 
     if (s)
         notes = rb_rolling_find_notes(&c->resolved.rc, s);
+    rb_rolling_list_step_notes(of_steps, c->purpose == RB_CASE_WEAR ? "row" : "step", &notes);
     rb_case_note_materials(c, &notes);
     return notes;
 }

@@ -2,7 +2,29 @@
  * required. */
 #include "rolling/case/case.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+/* Steps whose notes are kept on the way to whom they are shown. */
+typedef struct {
+    const rb_resolved_case *c;
+    rb_rolling_step *step; /* NULL: nobody */
+    void *context;
+    rb_rolling_study_notes *notes;
+    rb_status status;
+    rb_message why;
+} noted_steps;
+
+static int note_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                     int steps, void *context)
+{
+    noted_steps *to = context;
+
+    if (model) /* none: a run for error bars */
+        to->status =
+            rb_rolling_note_step(to->notes, &to->c->rc, to->c->units, model, step, steps, &to->why);
+    return to->status != RB_OK || (to->step && to->step(model, history, step, steps, to->context));
+}
 
 rb_status rb_case_solve(const rb_resolved_case *c, rb_rolling_step *step, void *context,
                         rb_case_result *r, rb_message *why)
@@ -27,9 +49,17 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step, 
     if (rb_case_has_steps(c)) {
         const double start = rb_seconds();
         const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
-        const rb_rolling_observer observer = {step, context};
-        const rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
+        r->of_steps = calloc(1, sizeof *r->of_steps);
+        if (!r->of_steps)
+            return rb_fail(why, RB_ENOMEM, "out of memory for notes");
+        noted_steps notes = {.c = c, .step = step, .context = context, .notes = r->of_steps};
+        const rb_rolling_observer observer = {note_step, &notes};
+        rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
             &c->rc, program, &observer, &r->model, &r->history, why);
+        if (notes.status != RB_OK) {
+            *why = notes.why;
+            s = notes.status;
+        }
         r->has_errors = s == RB_OK && rb_rolling_errors_of_cycle(&r->history, &r->errors);
         return rb_rolling_end_solve(&r->model, s, start, &r->solution, why);
     }
@@ -49,6 +79,8 @@ void rb_case_result_convert(rb_case_result *r, rb_units units)
 
 void rb_case_result_free(rb_case_result *r)
 {
+    free(r->of_steps);
+    r->of_steps = NULL;
     rb_rolling_solution_free(&r->solution);
     rb_rolling_history_free(&r->history);
     rb_rolling_model_free(&r->model);

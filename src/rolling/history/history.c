@@ -11,7 +11,6 @@
 #include "rolling/solve/resolution.h"
 #include "rolling/stress/stress.h"
 #include "rolling/solve/variant.h"
-#include "rolling/solve/zone.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -147,23 +146,6 @@ static int steps_found(const history_state *r)
     return known > 0 ? known : r->found->substeps[r->history->n];
 }
 
-/* 1: a force is given, and what sticks is at the bound of its friction while the others slide
- * towards both sides. */
-static int is_not_unique(const rb_rolling_model *model)
-{
-    const rb_contact_problem *p = &model->problem;
-    const rb_contact_state *state = &model->state;
-    int stick = 0;
-
-    if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
-        return 0;
-    for (int i = 0; i < state->n; i++)
-        stick += state->zone[i] == RB_ZONE_STICK;
-    return rb_rolling_slips_both_ways(state->n, state->zone) &&
-           stick == rb_rolling_count_at_bound(state->n, state->zone, state->p, state->q, p->bound,
-                                              p->mu);
-}
-
 static rb_status all_rows(history_state *r, rb_message *why)
 {
     const rb_rolling_observer *o = r->observer;
@@ -182,7 +164,8 @@ static rb_status all_rows(history_state *r, rb_message *why)
         }
         if (r->found && r->found->rows.jumped == r->history->n)
             rb_rolling_row_note_jump(r);
-        if (k + 1 < r->rows && r->model->rows.not_unique == 0 && is_not_unique(r->model))
+        if (r->model->rows.not_unique == 0 &&
+            (r->not_unique || (k + 1 < r->rows && rb_rolling_row_is_not_unique(r))))
             r->model->rows.not_unique = r->history->n;
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);

@@ -306,11 +306,28 @@ static rb_status take_found(const history_state *r, rb_message *why)
     return s;
 }
 
+int rb_rolling_row_is_not_unique(const history_state *r)
+{
+    const rb_rolling_model *model = r->model;
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
+    int stick = 0;
+
+    if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
+        return 0;
+    for (int i = 0; i < state->n; i++)
+        stick += state->zone[i] == RB_ZONE_STICK;
+    return rb_rolling_slips_both_ways(state->n, state->zone) &&
+           stick == rb_rolling_count_at_bound(state->n, state->zone, state->p, state->q, p->bound,
+                                              p->mu);
+}
+
 rb_status rb_rolling_row_compute(history_state *r, int steps, rb_message *why)
 {
     rb_status s = RB_OK;
 
     r->steps = steps;
+    r->not_unique = 0;
     memset(&r->fall, 0, sizeof r->fall);
     rb_rolling_cycle_begin_row(r->model->cycle);
     for (int i = 0; i < steps && s == RB_OK; i++) {
@@ -325,6 +342,8 @@ rb_status rb_rolling_row_compute(history_state *r, int steps, rb_message *why)
         s = assess(r, s, &reason, why);
         if (s >= 0)
             rb_rolling_row_end_step(r, s);
+        if (s == RB_OK && i + 1 < steps)
+            r->not_unique |= rb_rolling_row_is_not_unique(r);
         if (s == RB_OK)
             s = rb_rolling_check_crushed(r->model, why);
     }

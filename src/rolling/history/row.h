@@ -31,6 +31,7 @@ typedef struct {
     int frets_from, frets_to; /* row after which the cycle of --fretting begins, and its last */
     int row, part;            /* of the program: rows towards this one that are done */
     int step, steps;          /* of the present row: done, and in all */
+    int not_unique;           /* 1: in the present row the motion of a step before its end is not */
     rb_rolling_stride stride; /* the current step */
     double to;                /* [half-widths]: where it ends */
     struct {
@@ -53,6 +54,9 @@ rb_status rb_rolling_row_solve_step(const history_state *r, rb_message *why);
 /* Takes the state that the model has, which a solve with status s has left, as that of the step;
  * records the row behind its last one. */
 void rb_rolling_row_end_step(history_state *r, rb_status s);
+/* 1: a force is given, and what sticks is at the bound of its friction while the others slide
+ * towards both sides. */
+int rb_rolling_row_is_not_unique(const history_state *r);
 /* A row in this number of steps. */
 rb_status rb_rolling_row_compute(history_state *r, int steps, rb_message *why);
 

@@ -11,7 +11,8 @@
 /* The doors of a note. */
 typedef enum {
     RB_NOTE_EVERYWHERE, /* standard error, # lines, JSON, Python, rows of curves and studies */
-    RB_NOTE_OF_COLUMNS  /* how the columns of the table of tractions must be read: not of rows */
+    RB_NOTE_OF_COLUMNS, /* how the columns of the table of tractions must be read: not of rows */
+    RB_NOTE_OF_AN_END   /* not of a step before the last one: rb_rolling_rows tells of those */
 } rb_rolling_note_doors;
 
 typedef struct {

@@ -2,6 +2,10 @@
  * tests/test_sentences.c has a case that must say each of them, and a near one that must not. */
 #include "base/base.h"
 #include "rolling/notes/note.h"
+#include "rolling/results/results.h"
+#include "rolling/solve/solution.h"
+
+#include <string.h>
 
 static const struct {
     const rb_rolling_note *row;
@@ -57,7 +61,39 @@ rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
     rb_rolling_row_notes row = {.n = 0, .status = found.status};
 
     for (int k = 0; k < found.n; k++)
-        if (note_of_kind(found.kind[k])->doors == RB_NOTE_EVERYWHERE)
+        if (note_of_kind(found.kind[k])->doors != RB_NOTE_OF_COLUMNS)
             rb_rolling_add_note(&row, found.kind[k], found.text[k]);
     return row;
+}
+
+rb_status rb_rolling_add_step_notes(rb_rolling_study_notes *all, const rb_rolling_case *rc,
+                                    const rb_rolling_solution *s, int step, int steps)
+{
+    rb_rolling_row_notes row = {.n = 0};
+
+    if (step == 0)
+        memset(all, 0, sizeof *all);
+    if (step + 1 < steps) {
+        const rb_rolling_note_list found = rb_rolling_find_notes(rc, s);
+        row.status = found.status;
+        for (int k = 0; k < found.n; k++)
+            if (note_of_kind(found.kind[k])->doors == RB_NOTE_EVERYWHERE)
+                rb_rolling_add_note(&row, found.kind[k], found.text[k]);
+    }
+    rb_rolling_add_row_notes(all, step, &row);
+    return row.status;
+}
+
+rb_status rb_rolling_note_step(rb_rolling_study_notes *all, const rb_rolling_case *rc,
+                               rb_units units, const rb_rolling_model *model, int step, int steps,
+                               rb_message *why)
+{
+    rb_rolling_solution solution = {0};
+    rb_status s = step + 1 < steps ? rb_rolling_tractions_solution(model, &solution, why) : RB_OK;
+
+    rb_rolling_solution_convert(&solution, units);
+    if (s == RB_OK)
+        s = rb_rolling_add_step_notes(all, rc, &solution, step, steps);
+    rb_rolling_solution_free(&solution);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for notes") : s;
 }

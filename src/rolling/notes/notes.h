@@ -10,7 +10,7 @@ enum { RB_ROLLING_NOTES = 56, RB_ROLLING_NOTE_LENGTH = 320 };
 
 /* The notes on all rows: how many have a note of each kind, the first of them from 0, and what it
  * says of that one. */
-typedef struct {
+typedef struct rb_rolling_study_notes {
     int rows, count[RB_ROLLING_NOTES], first[RB_ROLLING_NOTES];
     char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
 } rb_rolling_study_notes;
@@ -48,6 +48,18 @@ void rb_rolling_join_study_notes(rb_rolling_study_notes *all, const rb_rolling_s
 /* One line for each kind, with the rows that it is true of; row: "case", "point". */
 rb_rolling_note_list rb_rolling_list_study_notes(const rb_rolling_study_notes *all,
                                                  const char *row);
+/* Adds the notes of a step, step = 0 ... steps - 1, of which 0 begins anew.  Those of the last step
+ * are found from its solution and are not added.  RB_ENOMEM: some are missing. */
+rb_status rb_rolling_add_step_notes(rb_rolling_study_notes *all, const rb_rolling_case *rc,
+                                    const rb_rolling_solution *s, int step, int steps);
+/* The same of a step that the model has just computed; units: of the numbers in the notes. */
+rb_status rb_rolling_note_step(rb_rolling_study_notes *all, const rb_rolling_case *rc,
+                               rb_units units, const rb_rolling_model *model, int step, int steps,
+                               rb_message *why);
+/* To the notes on the last step, those of other kinds on steps before it, with their numbers; of:
+ * may be NULL. */
+void rb_rolling_list_step_notes(const rb_rolling_study_notes *of, const char *step,
+                                rb_rolling_note_list *notes);
 /* 1: the friction power is negative by more than rounding errors, which is an error of
  * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);

@@ -167,7 +167,7 @@ static int slip_violations(const rb_rolling_case *rc, const rb_rolling_solution 
 }
 
 const rb_rolling_note rb_rolling_notes_on_answers[] = {
-    {"not-unique", not_unique_motion, RB_NOTE_EVERYWHERE},
+    {"not-unique", not_unique_motion, RB_NOTE_OF_AN_END},
     {"steep-fall", steep_fall, RB_NOTE_EVERYWHERE},
     {"angle-of-arc", angle_of_arc, RB_NOTE_EVERYWHERE},
     {"yields", yields, RB_NOTE_OF_COLUMNS},

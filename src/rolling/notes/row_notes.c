@@ -3,6 +3,7 @@
 #include "rolling/notes/notes.h"
 
 #include <stdio.h>
+#include <string.h>
 
 void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text)
 {
@@ -60,4 +61,21 @@ rb_rolling_note_list rb_rolling_list_study_notes(const rb_rolling_study_notes *a
         list.kind[list.n++] = k;
     }
     return list;
+}
+
+void rb_rolling_list_step_notes(const rb_rolling_study_notes *of, const char *step,
+                                rb_rolling_note_list *notes)
+{
+    if (!of)
+        return;
+    const rb_rolling_note_list earlier = rb_rolling_list_study_notes(of, step);
+    for (int k = 0; k < earlier.n && notes->n < RB_ROLLING_NOTES; k++) {
+        int known = 0;
+        for (int j = 0; j < notes->n; j++)
+            known |= notes->kind[j] == earlier.kind[k];
+        if (known)
+            continue;
+        notes->kind[notes->n] = earlier.kind[k];
+        memcpy(notes->text[notes->n++], earlier.text[k], sizeof earlier.text[k]);
+    }
 }

@@ -153,46 +153,54 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s)
+/* What is read from the state alone. */
+static void set_tractions(const rb_rolling_model *model, rb_rolling_solution *s)
 {
-    const int n = s->n, m = n + 1;
+    const int n = s->n;
     const rb_contact_state *state = &model->state;
-    double *w = rb_alloc(2 * (size_t)m, 1);
-    rb_status status = w ? RB_OK : RB_ENOMEM;
+    const double *x = model->bodies.f.x;
 
-    if (status == RB_OK)
-        status = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
-    if (status != RB_OK) {
-        free(w);
-        return status;
-    }
     memcpy(s->x, model->bodies.f.x, (size_t)n * sizeof(double));
     memcpy(s->h, model->bodies.f.h, (size_t)n * sizeof(double));
     memcpy(s->p, state->p, (size_t)n * sizeof(double));
     memcpy(s->q, state->q, (size_t)n * sizeof(double));
     memcpy(s->shift, state->lambda, (size_t)n * sizeof(double));
     memcpy(s->zone, state->zone, (size_t)n * sizeof(int));
-    rb_contact_kinematics(&model->problem, state, s->gap, s->slip);
-    memcpy(s->un, w, (size_t)n * sizeof(double));
-    memcpy(s->ut, w + m, (size_t)n * sizeof(double));
     for (int i = 0; i < n && s->worn; i++)
         s->worn[i] = rb_rolling_worn_depth(model->rc, s->x[i]);
     if (s->mu)
         memcpy(s->mu, model->problem.bound, (size_t)n * sizeof(double));
     if (s->plastic)
         rb_rolling_yielded(model, s->plastic);
-    /* static: (12) with sgn(V) = -1, from the creepage of the case and the strain
-     * upstream; otherwise the slip of the solution itself. */
-    const double *w_T = w + m;
-    const double *x = model->bodies.f.x, strain = rb_rolling_bulk_strain(model->rc);
-
-    for (int i = 0; i < s->n; i++)
-        s->slip[i] = s->formulation == RB_STATIC
-                         ? s->creepage - strain - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
+    for (int i = 0; i < n; i++)
+        s->slip[i] = s->formulation == RB_STATIC   ? (double)NAN
                      : s->formulation == RB_STEADY ? s->shift[i] / (x[i + 1] - x[i])
                                                    : s->shift[i] / model->problem.e_T[i];
+}
+
+/* What takes products. */
+static rb_status set_displacements(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    const int n = s->n, m = n + 1;
+    const rb_contact_state *state = &model->state;
+    const double *x = model->bodies.f.x, strain = rb_rolling_bulk_strain(model->rc);
+    double *w = rb_alloc(2 * (size_t)m, 2);
+    rb_status status = w ? RB_OK : RB_ENOMEM;
+
+    if (status == RB_OK)
+        status = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+    if (status == RB_OK) {
+        const double *w_T = w + m;
+        rb_contact_kinematics(&model->problem, state, s->gap, w + 2 * m);
+        memcpy(s->un, w, (size_t)n * sizeof(double));
+        memcpy(s->ut, w_T, (size_t)n * sizeof(double));
+        /* static: (12) with sgn(V) = -1, from the creepage of the case and the strain upstream;
+         * otherwise the slip of the solution itself */
+        for (int i = 0; i < n && s->formulation == RB_STATIC; i++)
+            s->slip[i] = s->creepage - strain - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i]);
+    }
     free(w);
-    return RB_OK;
+    return status;
 }
 
 static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
@@ -301,8 +309,9 @@ static int slip_violations(const rb_rolling_model *model, const rb_rolling_solut
     return violations;
 }
 
-rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *s,
-                                   rb_message *why)
+/* with_products: 1: displacements and what follows from them, too. */
+static rb_status summarise(const rb_rolling_model *model, int with_products, rb_rolling_solution *s,
+                           rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
@@ -315,7 +324,9 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
         set_counts(model, s);
         s->free_creepage = NAN;
         set_forces(model, s);
-        status = set_table(model, s);
+        set_tractions(model, s);
+        if (with_products)
+            status = set_displacements(model, s);
     }
     if (status == RB_OK) {
         /* M, its coefficient and where the power goes that neither Q nor M/R leave to
@@ -332,8 +343,9 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
                     : NAN;
             rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
                                &s->torque_b);
-            status = rb_rolling_hysteresis(model, &s->hysteresis);
-            if (status == RB_OK)
+            if (with_products)
+                status = rb_rolling_hysteresis(model, &s->hysteresis);
+            if (with_products && status == RB_OK)
                 status = rb_rolling_lever_power(model, s->hysteresis, &s->lever_power);
         }
     }
@@ -355,7 +367,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
     /* Clapeyron's: half the work of the tractions, which are linear in the displacements
      * unless a body relaxes or the interface yields. */
     double twice = 0.0;
-    if (!rb_rolling_can(model->rc, RB_BODY_ELASTIC) || s->yielding >= 0)
+    if (!with_products || !rb_rolling_can(model->rc, RB_BODY_ELASTIC) || s->yielding >= 0)
         s->strain_energy = NAN;
     else {
         for (int i = 0; i < s->n; i++)
@@ -392,6 +404,18 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
     if (status != RB_OK)
         rb_rolling_solution_free(s);
     return status;
+}
+
+rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                   rb_message *why)
+{
+    return summarise(model, 1, s, why);
+}
+
+rb_status rb_rolling_tractions_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                        rb_message *why)
+{
+    return summarise(model, 0, s, why);
 }
 
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,

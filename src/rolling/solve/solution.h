@@ -27,6 +27,10 @@ rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, doubl
  * support, which is NAN. */
 rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                    rb_message *why);
+/* The same without what takes products, either: gap, displacements, slip at rest, strain energy and
+ * powers that bodies lose are 0 or NAN.  Enough for notes on a step. */
+rb_status rb_rolling_tractions_solution(const rb_rolling_model *model,
+                                        rb_rolling_solution *solution, rb_message *why);
 
 /* Friction power per area and unit speed [stress], n values with sum power h =
  * dissipation; wear laws use it.  In steady rolling the slip is known between midpoints,
