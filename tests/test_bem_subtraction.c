@@ -178,9 +178,33 @@ TEST(fields_have_their_mirror_images)
     }
 }
 
+/* Of a rim so thin that GMRES does not converge the matrix is factored after all. */
+TEST(few_loads_of_a_thin_rim)
+{
+    enum { N = 4, ROWS = 2 * (N + 1) };
+    const rb_bem_material soft = {1.0, 0.4999};
+    const rb_bem_cylinder cylinder = {
+        .radius = 10.0, .support = RB_BEM_HUB, .hub_ratio = 0.95, .outer_elements = 200};
+    const double ends[N + 2] = {-0.02, -0.01, 0.0, 0.01, 0.02, 0.03}, r[2 * N] = {1.0, 0.5, -0.2};
+    double w[2][ROWS], w0[ROWS];
+    OWNED(rb_bem_mesh) mesh;
+    CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL));
+    for (int few = 0; few < 2; few++) {
+        held_system *system;
+        CHECK_OK((few ? rb_bem_system_create_for_few
+                      : rb_bem_system_create_within)(&mesh, soft, INFINITY, &system, NULL));
+        assert_int_equal(rb_bem_system_rcond(system) > 0.0, !few);
+        CHECK_OK(rb_bem_displacement_subtracted(system, RB_BEM_NORMALS_OBSTACLE, 1, r, w[few], w0,
+                                                NULL));
+        assert_true(rb_bem_system_rcond(system) > 0.0);
+    }
+    for (int i = 0; i < ROWS; i++)
+        CHECK_REL(w[1][i], w[0][i], 1e-12, "row %d", i);
+}
+
 TEST(every_failed_allocation_is_reported)
 {
-    held_system *system = wheel_system(4);
+    held_system *system = wheel_system(4), *few;
     for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_bem_flexibility) f;
         refused = REFUSED_FROM(
@@ -191,6 +215,13 @@ TEST(every_failed_allocation_is_reported)
         double w[10], w0[10];
         refused = REFUSED_FROM(count, rb_bem_displacement_subtracted(
                                           system, RB_BEM_NORMALS_OBSTACLE, 1, r, w, w0, NULL));
+    }
+    CHECK_OK(rb_bem_system_create_for_few(rb_bem_system_mesh(system), steel, INFINITY, &few, NULL));
+    for (int count = 0, refused = 1; refused; count++) {
+        const double r[8] = {1.0};
+        double w[10], w0[10];
+        refused = REFUSED_FROM(
+            count, rb_bem_displacement_subtracted(few, RB_BEM_NORMALS_OBSTACLE, 1, r, w, w0, NULL));
     }
     const double x[] = {0.0, 0.1, 1.0}, p[] = {0.0, 2.0, 0.0}, q[] = {0.0, 0.1, 0.0};
     const rb_bem_edge_load load = {3, x, p, q};

@@ -176,11 +176,19 @@ static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dens
         return;
     /* the same under two loads alone */
     enum { ROWS = 2 * (CONTACT + 1), LOADS = 2, N = 2 * CONTACT };
-    double r[LOADS * N], w[LOADS * ROWS], w0[ROWS];
+    double r[LOADS * N], w[LOADS * ROWS], w0[ROWS], again[LOADS * ROWS];
     for (int j = 0; j < LOADS * N; j++)
         r[j] = j < N ? sin(1.0 + j) : j == N + 3;
     CHECK_OK(
         rb_bem_displacement_subtracted(system, RB_BEM_NORMALS_OBSTACLE, LOADS, r, w, w0, &message));
+    /* ... by GMRES, where the matrix is dense and not factored */
+    held_system *few;
+    CHECK_OK(rb_bem_system_create_for_few(mesh, material, INFINITY, &few, &message));
+    CHECK_OK(rb_bem_displacement_subtracted(few, RB_BEM_NORMALS_OBSTACLE, LOADS, r, again, w0,
+                                            &message));
+    assert_true(few->is_assembled);
+    for (int i = 0; i < LOADS * ROWS && dense; i++)
+        CHECK_ABS(again[i], w[i], 1e-9 * rb_norm_inf(LOADS * ROWS, w), "row %d by GMRES", i);
     /* a solution errs by a part of the largest displacement, by clusters more than by the matrix */
     double most = 0.0;
     for (int i = 0; i < N * ROWS; i++)

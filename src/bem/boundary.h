@@ -67,6 +67,11 @@ const char *rb_bem_vector_name(void);
  * taken. */
 rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
                                       double compression, rb_bem_system **system, rb_message *why);
+/* The same for a few loads, of rb_bem_displacement_subtracted alone: a dense matrix is not
+ * factored.
+ */
+rb_status rb_bem_system_create_for_few(const rb_bem_mesh *mesh, rb_bem_material material,
+                                       double compression, rb_bem_system **system, rb_message *why);
 /* A cover bonded to an elastic core (B11).  The inner contour of the cover (the last
  * elements of its mesh) has the displacement that the tractions there cause in the core.
  * The matrix is dense at any size.  RB_EINVAL also if the two meshes do not match, or if
@@ -91,10 +96,10 @@ rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals
                                      rb_bem_flexibility *f, rb_message *why);
 
 /* The same under a few loads alone, each a column (r_N, r_T) of r, 2 contact_n x loads: w, 2m x
- * loads, is F r of that flexibility, w0 (2m) its own, m = contact_n + 1. */
-rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_normals normals,
-                                         int loads, const double *r, double *w, double *w0,
-                                         rb_message *why);
+ * loads, is F r of that flexibility, w0 (2m) its own, m = contact_n + 1.  A system for few loads is
+ * solved by GMRES, and factored where that does not converge. */
+rb_status rb_bem_displacement_subtracted(rb_bem_system *system, rb_bem_normals normals, int loads,
+                                         const double *r, double *w, double *w0, rb_message *why);
 
 /* Adds a compliant interface whose deformation at an element depends only on the traction
  * of this element: normal and tangential compliance on the diagonals of F_NN and F_TT

@@ -21,6 +21,8 @@ static rb_status solve_contact(const rb_bem_system *s, int loads, double *X)
 {
     if (!s->A)
         return rb_bem_system_solve_columns(s, loads + 1, X);
+    if (s->is_assembled)
+        return rb_bem_system_iterate(s, loads + 1, X);
     const int n = s->dofs, ld = s->ld, kept = 2 * (s->mesh.contact_n + 1);
     const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
     const int threads = rb_blas_threads(n >= RB_BEM_LU_THREADS_FROM ? 0 : 1);
@@ -140,9 +142,8 @@ rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals
     return s;
 }
 
-rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_normals normals,
-                                         int loads, const double *r, double *w, double *w0,
-                                         rb_message *why)
+rb_status rb_bem_displacement_subtracted(rb_bem_system *system, rb_bem_normals normals, int loads,
+                                         const double *r, double *w, double *w0, rb_message *why)
 {
     const rb_bem_mesh *mesh = &system->mesh;
     const int n = mesh->contact_n, m = n + 1, first = mesh->contact_first;
@@ -163,6 +164,11 @@ rb_status rb_bem_displacement_subtracted(const rb_bem_system *system, rb_bem_nor
     }
     if (s == RB_OK)
         s = solve_loads(system, 1, loads, R, X);
+    if (s == RB_MAXITER) {
+        s = rb_bem_system_factor(system, why);
+        if (s == RB_OK)
+            s = solve_loads(system, 1, loads, R, X);
+    }
     for (int i = 0; i < m && s == RB_OK; i++) {
         const double *U = X + system->dofs - 2 * m + 2 * i;
         rb_bem_contact_frame(mesh, first + i, normals, to);

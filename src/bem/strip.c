@@ -82,17 +82,6 @@ static double complex log_ratio(double complex z, double h)
     return complex_of(rb_Lam_near(a, &v), -rb_atan2(h * cimag(z), rho - a * a));
 }
 
-/* ln a + ln b, distances in the unit, from Lambda = ln a - ln b. */
-static double complex log_product(double complex z, double h, double unit, double complex lambda)
-{
-    const double scale = 1.0 / unit;
-    const double complex a = complex_of((creal(z) + 0.5 * h) * scale, cimag(z) * scale),
-                         b = complex_of((creal(z) - 0.5 * h) * scale, cimag(z) * scale);
-
-    return complex_of(0.5 * rb_log(square(a) * square(b)),
-                      2.0 * rb_atan2(cimag(a), creal(a)) - cimag(lambda));
-}
-
 /* Lambda' = 1/a - 1/b; the compiler's own division guards against overflow, and is slow. */
 static double complex log_ratio_slope(double complex z, double h)
 {
@@ -100,31 +89,83 @@ static double complex log_ratio_slope(double complex z, double h)
     return -h / square(ab) * conj(ab);
 }
 
-/* 2G u = -kappa F L + conj(F) (h + 2iy conj(Lambda)) - F conj(L), over 2 pi, in the
- * strip's frame; turned, F = conj(along) f. */
-rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z)
+/* ln |a| + ln |b|, distances in the unit, and the angle of a, at (x, y). */
+RB_INLINE double log_ends(double x, double y, double a, double per_unit)
 {
-    const double h = strip->h, unit = strip->unit, C = 1.0 / (4.0 * M_PI * strip->shear);
-    const double complex at = below(strip, z), lambda = log_ratio(at, h);
-    const double complex L = at * lambda + 0.5 * h * log_product(at, h, unit, lambda) - h;
+    const double right = (x + a) * per_unit, left = (x - a) * per_unit, up = y * per_unit;
+    return 0.5 * rb_log((right * right + up * up) * (left * left + up * up));
+}
+
+/* 2G u = -kappa F L + conj(F) (h + 2iy conj(Lambda)) - F conj(L), over 2 pi, in the strip's frame;
+ * turned, F = conj(along) f.  L = z Lambda + h/2 (ln a + ln b) - h, where ln b = ln a - Lambda. */
+static rb_strip_answer displacement(const rb_strip *strip, double complex at, double complex lambda,
+                                    double ends, double angle)
+{
+    const double h = strip->h, C = 1.0 / (4.0 * M_PI * strip->shear);
+    const double complex L =
+        at * lambda + 0.5 * h * complex_of(ends, 2.0 * angle - cimag(lambda)) - h;
 
     return (rb_strip_answer){-C * (strip->kappa * L + conj(L)),
                              C * strip->along * strip->along *
                                  (h + 2.0 * I * cimag(at) * conj(lambda))};
 }
 
+rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z)
+{
+    const double a = 0.5 * strip->h;
+    const double complex at = below(strip, z);
+    return displacement(strip, at, log_ratio(at, strip->h),
+                        log_ends(creal(at), cimag(at), a, 1.0 / strip->unit),
+                        rb_atan2(cimag(at), creal(at) + a));
+}
+
+void rb_strip_displacements(const rb_strip *strip, int n, const double *x, const double *y,
+                            const double complex *view, rb_strip_answer *answer)
+{
+    const double a = 0.5 * strip->h, per_unit = 1.0 / strip->unit, mx = creal(strip->middle),
+                 my = cimag(strip->middle), tx = creal(strip->along), ty = cimag(strip->along);
+    double X[RB_STRIP_POINTS], Y[RB_STRIP_POINTS], ends[RB_STRIP_POINTS], angle[RB_STRIP_POINTS];
+
+    /* In loops of their own, which compilers turn into vectors. */
+    for (int i = 0; i < n; i++) {
+        const double dx = x[i] - mx, dy = y[i] - my, up = tx * dy - ty * dx;
+        X[i] = tx * dx + ty * dy;
+        Y[i] = up > 0.0 ? up : 0.0;
+    }
+    for (int i = 0; i < n; i++)
+        ends[i] = log_ends(X[i], Y[i], a, per_unit);
+    for (int i = 0; i < n; i++)
+        angle[i] = rb_atan2(Y[i], X[i] + a);
+    for (int i = 0; i < n; i++)
+        answer[i] = displacement(strip, complex_of(X[i], Y[i]), -view[i], ends[i], angle[i]);
+}
+
 /* sxx + syy = 4 Re phi' = -(F Lambda + conj(F Lambda))/pi,
  * syy - sxx + 2i sxy = 2(conj(z) phi'' + psi') = (F (Lambda + 2iy Lambda') + conj(F)
- * Lambda)/pi. */
-rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, double complex normal)
+ * Lambda)/pi; bent = Lambda + 2iy Lambda'. */
+static rb_strip_answer traction(const rb_strip *strip, double complex lambda, double complex bent,
+                                double complex normal)
 {
-    const double h = strip->h, C = -0.5 / M_PI;
-    const double complex at = below(strip, z), lambda = log_ratio(at, h);
+    const double C = -0.5 / M_PI;
     const double complex n = conj(strip->along) * normal;
-    const double complex bent = lambda + 2.0 * I * cimag(at) * log_ratio_slope(at, h);
 
     return (rb_strip_answer){C * (lambda * n + conj(n * lambda)),
                              C * strip->along * strip->along * (conj(lambda) * n + conj(n * bent))};
+}
+
+rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, double complex normal)
+{
+    const double complex at = below(strip, z), lambda = log_ratio(at, strip->h);
+    return traction(strip, lambda, lambda + 2.0 * I * cimag(at) * log_ratio_slope(at, strip->h),
+                    normal);
+}
+
+rb_strip_answer rb_strip_traction_of(const rb_strip *strip, double complex view,
+                                     double complex turned, double complex normal)
+{
+    /* a boundary element looks back: from the point to the strip; y Lambda' = -conj(q Z) there */
+    return traction(strip, -view, -view - 2.0 * I * strip->along * strip->along * conj(turned),
+                    normal);
 }
 
 /* With w = z - s and F = f_z - slope w, f_z = f + slope z:

@@ -42,8 +42,17 @@ static inline double complex rb_strip_under(rb_strip_answer answer, double compl
 
 /* Displacement ux + i uy at z. */
 rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z);
+/* The same at n points, at most RB_STRIP_POINTS, from what the kernels of a boundary element there
+ * compute (kernels.h): view = Lam + i Th. */
+enum { RB_STRIP_POINTS = 32 };
+void rb_strip_displacements(const rb_strip *strip, int n, const double *x, const double *y,
+                            const double complex *view, rb_strip_answer *answer);
 /* Traction tx + i ty at z on a section with outward normal nx + i ny. */
 rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, double complex normal);
+/* The same from what these kernels compute at a point that is not the element's own: Lam + i Th and
+ * turned = q Z. */
+rb_strip_answer rb_strip_traction_of(const rb_strip *strip, double complex view,
+                                     double complex turned, double complex normal);
 
 /* Stress (sxx, syy, sxy) at z under a traction that is f in the middle of the strip and
  * changes by `slope` per length along it. */

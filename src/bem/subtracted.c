@@ -2,6 +2,8 @@
  * solution of its load, whose logarithm at the ends of the element constant elements resolve
  * badly, is in closed form; boundary elements solve for what it leaves. */
 #include "bem/bond.h"
+#include "bem/column.h"
+#include "bem/complex.h"
 #include "bem/subtracted.h"
 #include "base/blas.h"
 #include "bem/assemble.h"
@@ -19,9 +21,10 @@
  * tractions and displacements that it causes where others are given. */
 struct rb_subtracted {
     const rb_bem_system *s;
-    rb_strip *strip; /* one per contact element */
-    double *bonded;  /* 2 bond->n x 2 contact_n: what the loads leave on a bonded contour;
-                        NULL without one */
+    rb_strip *strip;     /* one per contact element */
+    rb_element *element; /* the same for the kernels of boundary elements */
+    double *bonded;      /* 2 bond->n x 2 contact_n: what the loads leave on a bonded contour;
+                            NULL without one */
 };
 
 /* The displacement of one load's strip. */
@@ -37,49 +40,88 @@ static double complex strip_field(rb_bem_material material, double complex z, co
     return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
 }
 
-/* An element that strips are seen from: its midpoint and outward normal, and what is given there.
- */
+/* Elements that are looked at together: columns multiplied at once, points of one vector loop; rows
+ * of one product. */
+enum { BLOCK = RB_STRIP_POINTS, SLICE = 256 };
+
+/* Elements that strips are seen from, at most BLOCK of them: midpoints and outward normals. */
 typedef struct {
-    int k;
-    double complex z, outward;
-    int held_x, held_y;
+    int n, element[BLOCK];
+    rb_points midpoints;
+    double complex outward[BLOCK];
 } seen_from;
 
-static seen_from from_element(const rb_bem_mesh *mesh, int k)
+/* Elements first ... first + n - 1, or of a list those.  RB_ENOMEM; free the midpoints in any case.
+ */
+static rb_status see_from(const rb_bem_mesh *mesh, const int *list, int first, int n, seen_from *at)
 {
-    return (seen_from){k, rb_strip_midpoint(mesh, k), rb_strip_outward(mesh, k),
-                       mesh->condition[2 * k] == RB_BEM_DISPLACEMENT,
-                       mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT};
+    double x[BLOCK], y[BLOCK];
+
+    at->n = n;
+    for (int i = 0; i < n; i++) {
+        const int k = at->element[i] = list ? list[first + i] : first + i;
+        const double complex z = rb_strip_midpoint(mesh, k);
+        x[i] = creal(z);
+        y[i] = cimag(z);
+        at->outward[i] = rb_strip_outward(mesh, k);
+    }
+    return rb_points_make(n, x, y, &at->midpoints);
 }
 
-/* Boundary values of an element against the strip on contact element c: u_x, u_y (where
- * the displacement is given) or t_x, t_y, under its load along x and along y. */
-static void left_over(const rb_subtracted *p, const seen_from *at, int c, double value[2][2])
+/* Lam + i Th and q Z of the strip on contact element c at these elements: with such constants they
+ * are sums and differences of the columns of H (kernels.h). */
+static void look(const rb_subtracted *p, const seen_from *at, int c, double complex view[BLOCK],
+                 double complex turned[BLOCK])
 {
-    const int k = at->k, held_x = at->held_x, held_y = at->held_y;
-    rb_strip_answer u = {0.0, 0.0}, t = {0.0, 0.0};
+    static const rb_constants unscaled = {.H_mean = 1.0, .H_dev = 1.0, .H_skew = 1.0};
+    double Hx[2 * BLOCK], Hy[2 * BLOCK];
 
-    if (p->bonded && k >= p->s->bond->first) {
-        const size_t rows = 2 * (size_t)p->s->bond->n;
-        const double *own = p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
-        for (int direction = 0; direction < 2; direction++)
-            for (int d = 0; d < 2; d++)
-                value[direction][d] = own[(size_t)direction * rows + (size_t)d];
-        return;
-    }
-    if (held_x || held_y)
-        u = rb_strip_displacement(&p->strip[c], at->z);
-    if (!(held_x && held_y) && k != p->s->mesh.contact_first + c)
-        t = rb_strip_traction(&p->strip[c], at->z, at->outward);
-    for (int direction = 0; direction < 2; direction++) {
-        const double complex load = direction ? I : 1.0;
-        value[direction][0] = -creal(rb_strip_under(held_x ? u : t, load));
-        value[direction][1] = -cimag(rb_strip_under(held_y ? u : t, load));
+    rb_column_variant_get(0)->fill(&unscaled, &p->element[c], -1, &at->midpoints,
+                                   (double *[4]){Hx, Hy, NULL, NULL});
+    for (int i = 0; i < at->n; i++) {
+        const double *x = Hx + 2 * i, *y = Hy + 2 * i;
+        view[i] = complex_of(0.5 * (y[0] - x[1]), 0.5 * (x[0] + y[1]));
+        turned[i] = complex_of(0.5 * (x[0] - y[1]), 0.5 * (y[0] + x[1]));
     }
 }
 
-/* Elements whose columns are multiplied at once; rows of one product. */
-enum { BLOCK = 32, SLICE = 256 };
+/* Boundary values of elements against the strip on contact element c: u_x, u_y (where the
+ * displacement is given) or t_x, t_y; value[l]: under its load along x and along y. */
+static void left_over(const rb_subtracted *p, const seen_from *at, int c,
+                      double value[2][2 * BLOCK])
+{
+    const rb_bem_mesh *mesh = &p->s->mesh;
+    double complex view[BLOCK], turned[BLOCK];
+    rb_strip_answer u[BLOCK] = {{0.0, 0.0}};
+    int held = 0;
+
+    look(p, at, c, view, turned);
+    for (int i = 0; i < 2 * at->n; i++)
+        held |= mesh->condition[2 * at->element[i / 2] + i % 2] == RB_BEM_DISPLACEMENT;
+    if (held)
+        rb_strip_displacements(&p->strip[c], at->n, at->midpoints.x, at->midpoints.y, view, u);
+    for (int i = 0; i < at->n; i++) {
+        const int k = at->element[i], held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT,
+                  held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
+        rb_strip_answer t = {0.0, 0.0};
+
+        if (p->bonded && k >= p->s->bond->first) {
+            const size_t rows = 2 * (size_t)p->s->bond->n;
+            const double *own =
+                p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
+            for (int l = 0; l < 2; l++)
+                memcpy(value[l] + 2 * i, own + (size_t)l * rows, 2 * sizeof *own);
+            continue;
+        }
+        if (!(held_x && held_y) && k != mesh->contact_first + c)
+            t = rb_strip_traction_of(&p->strip[c], view[i], turned[i], at->outward[i]);
+        for (int l = 0; l < 2; l++) {
+            const double complex load = l ? I : 1.0;
+            value[l][2 * i] = -creal(rb_strip_under(held_x ? u[i] : t, load));
+            value[l][2 * i + 1] = -cimag(rb_strip_under(held_y ? u[i] : t, load));
+        }
+    }
+}
 
 rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
 {
@@ -106,11 +148,17 @@ rb_status rb_subtracted_create(const rb_bem_system *s, rb_subtracted **subtracte
 
     if (!p)
         return RB_ENOMEM;
-    *p = (rb_subtracted){s, calloc((size_t)mesh->contact_n, sizeof *p->strip), NULL};
-    for (int c = 0; c < mesh->contact_n && p->strip; c++)
-        p->strip[c] = rb_strip_on(mesh, mesh->contact_first + c, s->material, unit);
-    if (!p->strip || !s->bond)
-        return p->strip ? RB_OK : RB_ENOMEM;
+    *p = (rb_subtracted){s, calloc((size_t)mesh->contact_n, sizeof *p->strip),
+                         calloc((size_t)mesh->contact_n, sizeof *p->element), NULL};
+    if (!p->strip || !p->element)
+        return RB_ENOMEM;
+    for (int c = 0; c < mesh->contact_n; c++) {
+        const int j = mesh->contact_first + c;
+        p->strip[c] = rb_strip_on(mesh, j, s->material, unit);
+        p->element[c] = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], unit);
+    }
+    if (!s->bond)
+        return RB_OK;
     p->bonded = rb_alloc(2 * (size_t)s->bond->n, 2 * (size_t)mesh->contact_n);
     if (!p->bonded)
         return RB_ENOMEM;
@@ -128,31 +176,36 @@ void rb_subtracted_free(rb_subtracted *p)
     if (!p)
         return;
     free(p->strip);
+    free(p->element);
     free(p->bonded);
     free(p);
 }
 
-/* Element k: its columns of [G, -H] for the values that are left over, from `row` on, and
- * these values. */
-static void left_over_of_element(const rb_subtracted *p, const rb_assembly *assembly, int k,
-                                 int row, double *columns, double *values)
+/* Element k: its columns of [G, -H] for the values that are left over, from `row` on. */
+static void columns_of_element(const rb_subtracted *p, const rb_assembly *assembly, int k, int row,
+                               double *columns)
 {
-    const rb_bem_mesh *mesh = &p->s->mesh;
-    double *out[4] = {NULL, NULL, NULL, NULL}, value[2][2];
+    double *out[4] = {NULL, NULL, NULL, NULL};
 
     for (int d = 0; d < 2; d++) {
-        const int held = mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT;
+        const int held = p->s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
         out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)p->s->ld;
     }
     rb_assembly_columns(assembly, k, 1.0, out);
-    const seen_from at = from_element(mesh, k);
-    for (int c = 0; c < mesh->contact_n; c++) {
-        left_over(p, &at, c, value);
-        for (int l = 0; l < 2; l++)
-            for (int d = 0; d < 2; d++)
-                values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
-                    out[d] ? -value[l][d] : value[l][d];
-    }
+}
+
+/* What the strip on contact element c leaves over on the elements of a block; -: of H. */
+static void values_of_strip(const rb_subtracted *p, const seen_from *at, int c, double *values)
+{
+    double value[2][2 * BLOCK];
+
+    left_over(p, at, c, value);
+    for (int l = 0; l < 2; l++)
+        for (int row = 0; row < 2 * at->n; row++) {
+            const int dof = 2 * at->element[row / 2] + row % 2,
+                      held = p->s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
+            values[row + (size_t)(2 * c + l) * 2 * BLOCK] = held ? -value[l][row] : value[l][row];
+        }
 }
 
 static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const double *R,
@@ -172,14 +225,21 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const
 
     for (int from = 0; status == RB_OK && from < s->mesh.n; from += BLOCK) {
         const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-        /* X += [G, -H] times the boundary values left over. All in one parallel region:
-         * threads that wait for a product by one of them would spin. */
+        seen_from at;
+        status = see_from(&s->mesh, NULL, from, to - from, &at);
+        if (status != RB_OK)
+            break;
+            /* X += [G, -H] times the boundary values left over. All in one parallel region:
+             * threads that wait for a product by one of them would spin. */
 #pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) * s->mesh.n >     \
                                                              rb_pairs_for_threads / 32)
         {
 #pragma omp for schedule(static)
             for (int k = from; k < to; k++)
-                left_over_of_element(p, &assembly, k, 2 * (k - from), columns, values);
+                columns_of_element(p, &assembly, k, 2 * (k - from), columns);
+#pragma omp for schedule(static)
+            for (int c = 0; c < s->mesh.contact_n; c++)
+                values_of_strip(p, &at, c, values);
 #pragma omp for schedule(static)
             for (int l = 0; l < (R ? loads : 0); l++)
                 cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * (to - from), units, 1.0, values,
@@ -191,6 +251,7 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const
                             s->dofs - row < SLICE ? s->dofs - row : SLICE, loads, 2 * (to - from),
                             1.0, columns + row, s->ld, combined, 2 * BLOCK, 1.0, X + row, s->ld);
         }
+        rb_points_free(&at.midpoints);
     }
     if (status == RB_OK)
         rb_assembly_end(&assembly);
@@ -265,22 +326,26 @@ static rb_status choose_loads(const rb_subtracted *p, split *far)
 
     if (s != RB_OK)
         return s;
-    for (int i = 0; i < far->sampled; i++) {
-        const int k = far->sample[i];
-        const double over = distance_from(middle, mesh, k) / p->s->material.shear;
-        const seen_from at = from_element(mesh, k);
-        for (int c = 0; c < mesh->contact_n; c++) {
-            double value[2][2];
+    for (int from = 0; from < far->sampled && s == RB_OK; from += BLOCK) {
+        seen_from at;
+        s = see_from(mesh, far->sample, from, (int)fmin(BLOCK, far->sampled - from), &at);
+        for (int c = 0; c < mesh->contact_n && s == RB_OK; c++) {
+            double value[2][2 * BLOCK];
             left_over(p, &at, c, value);
             for (int l = 0; l < 2; l++)
-                for (int d = 0; d < 2; d++)
-                    far_field.K[2 * i + d + (size_t)(2 * c + l) * (size_t)far_field.ld] =
-                        value[l][d] *
-                        (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
+                for (int row = 0; row < 2 * at.n; row++) {
+                    const int k = at.element[row / 2];
+                    const double over = distance_from(middle, mesh, k) / p->s->material.shear;
+                    far_field.K[2 * from + row + (size_t)(2 * c + l) * (size_t)far_field.ld] =
+                        value[l][row] *
+                        (mesh->condition[2 * k + row % 2] == RB_BEM_DISPLACEMENT ? 1.0 : over);
+                }
         }
+        rb_points_free(&at.midpoints);
     }
-    s = rb_skeleton_reduce(&far_field, 1e-2 * p->s->tolerance, &far->memory, &far->kept,
-                           &far->order, &far->T);
+    if (s == RB_OK)
+        s = rb_skeleton_reduce(&far_field, 1e-2 * p->s->tolerance, &far->memory, &far->kept,
+                               &far->order, &far->T);
     rb_skeleton_free(&far_field);
     return s;
 }
@@ -294,18 +359,29 @@ static rb_status multiply_values(const rb_subtracted *p, const rb_given *given, 
 
     if (!value)
         return RB_ENOMEM;
+    rb_status s = RB_OK;
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)
-    for (int i = 0; i < count; i++) {
-        const seen_from at = from_element(&p->s->mesh, element[i]);
-        for (int l = 0; l < loads; l++) {
+    for (int from = 0; from < count; from += BLOCK) {
+        seen_from at;
+        const rb_status own =
+            see_from(&p->s->mesh, element, from, (int)fmin(BLOCK, count - from), &at);
+        double both[2][2 * BLOCK];
+        for (int l = 0, seen = -1; l < loads && own == RB_OK; l++) {
             const int which = load ? load[l] : l;
-            double own[2][2];
-            left_over(p, &at, which / 2, own);
-            for (int d = 0; d < 2; d++)
-                value[2 * (size_t)i + (size_t)d + (size_t)l * rows] = own[which % 2][d];
+            if (which / 2 != seen)
+                left_over(p, &at, which / 2, both);
+            seen = which / 2;
+            memcpy(value + 2 * (size_t)from + (size_t)l * rows, both[which % 2],
+                   2 * (size_t)at.n * sizeof *value);
+        }
+        rb_points_free(&at.midpoints);
+        if (own != RB_OK) {
+#pragma omp critical
+            s = own;
         }
     }
-    const rb_status s = rb_given_multiply(given, count, element, loads, value, X);
+    if (s == RB_OK)
+        s = rb_given_multiply(given, count, element, loads, value, X);
     free(value);
     return s;
 }
@@ -374,21 +450,31 @@ rb_status rb_subtracted_add_strips(const rb_subtracted *p, int loads, const doub
 
     if (!strips)
         return RB_ENOMEM;
-    for (int c = 0; c < mesh->contact_n; c++)
-        for (int i = 0; i <= mesh->contact_n; i++) {
-            const rb_strip_answer answer = rb_strip_displacement(
-                &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
-            for (int l = 0; l < 2; l++) {
-                const double complex u = rb_strip_under(answer, l ? I : 1.0);
-                double *at = strips + 2 * i + (size_t)(2 * c + l) * rows;
-                at[0] += creal(u);
-                at[1] += cimag(u);
-            }
+    rb_status status = RB_OK;
+    for (int from = 0; from <= mesh->contact_n && status == RB_OK; from += BLOCK) {
+        const int rest = mesh->contact_n + 1 - from;
+        double complex view[BLOCK], turned[BLOCK];
+        rb_strip_answer answer[BLOCK];
+        seen_from at;
+        status = see_from(mesh, NULL, mesh->contact_first + from, rest < BLOCK ? rest : BLOCK, &at);
+        for (int c = 0; c < mesh->contact_n && status == RB_OK; c++) {
+            look(p, &at, c, view, turned);
+            rb_strip_displacements(&p->strip[c], at.n, at.midpoints.x, at.midpoints.y, view,
+                                   answer);
+            for (int l = 0; l < 2; l++)
+                for (int i = 0; i < at.n; i++) {
+                    const double complex u = rb_strip_under(answer[i], l ? I : 1.0);
+                    double *to = strips + 2 * (from + i) + (size_t)(2 * c + l) * rows;
+                    to[0] += creal(u);
+                    to[1] += cimag(u);
+                }
         }
-    if (R) {
+        rb_points_free(&at.midpoints);
+    }
+    if (R && status == RB_OK)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kept, loads, units, 1.0, strips,
                     kept, R, units, 1.0, U, s->ld);
+    if (R)
         free(strips);
-    }
-    return RB_OK;
+    return status;
 }

@@ -125,8 +125,9 @@ static rb_status assemble(rb_bem_system *s)
 }
 
 /* A = L U, or its hierarchical form without the matrix, whose condition is not known. */
-static rb_status factor(rb_bem_system *s, rb_message *why)
+rb_status rb_bem_system_factor(rb_bem_system *s, rb_message *why)
 {
+    s->is_assembled = 0;
     if (s->A) {
         /* The 1-norm of A, for the estimate of its condition: a system is singular if that leaves
          * no digit. */
@@ -175,9 +176,9 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
     return (dense ? dense_bytes : hierarchical_bytes)(mesh->n, mesh->contact_n);
 }
 
-rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
-                             double compression, rb_bond *bond, rb_bem_system **system,
-                             rb_message *why)
+/* few: loads; a dense matrix is then left as it is. */
+static rb_status make(const rb_bem_mesh *mesh, rb_bem_material material, int dense, int few,
+                      double compression, rb_bond *bond, rb_bem_system **system, rb_message *why)
 {
     *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
@@ -235,8 +236,10 @@ rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, 
     if (status == RB_OK) {
         const double assembled = rb_seconds();
         s->seconds_assembly = assembled - start;
+        s->is_assembled = few && dense;
         rb_phase("elimination of the boundary outside the contact");
-        status = factor(s, why);
+        if (!s->is_assembled)
+            status = rb_bem_system_factor(s, why);
         s->seconds_factor = rb_seconds() - assembled;
     }
     if (status == RB_ENOMEM)
@@ -247,6 +250,19 @@ rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, 
     else
         rb_bem_system_free(s);
     return status;
+}
+
+rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                             double compression, rb_bond *bond, rb_bem_system **system,
+                             rb_message *why)
+{
+    return make(mesh, material, dense, 0, compression, bond, system, why);
+}
+
+rb_status rb_bem_system_create_for_few(const rb_bem_mesh *mesh, rb_bem_material material,
+                                       double compression, rb_bem_system **system, rb_message *why)
+{
+    return make(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, 1, compression, NULL, system, why);
 }
 
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,

@@ -21,10 +21,11 @@ struct rb_bem_system {
     int offset; /* the dof that comes first */
     double *A;  /* LU, 2n x 2n; NULL where a hierarchical one stands instead: */
     rb_hierarchical *h;
-    rb_bond *bond; /* to an elastic core; NULL: none */
-    double *b;     /* of the given values, 2n */
-    double *Gc;    /* columns of the contact tractions, 2n x 2 contact_n */
-    double *unit;  /* of each element's tractions, n [stress] */
+    int is_assembled; /* A is the matrix itself, for few loads */
+    rb_bond *bond;    /* to an elastic core; NULL: none */
+    double *b;        /* of the given values, 2n */
+    double *Gc;       /* columns of the contact tractions, 2n x 2 contact_n */
+    double *unit;     /* of each element's tractions, n [stress] */
     lapack_int *pivot;
     double tolerance; /* of a hierarchical matrix */
     double rcond, seconds_assembly, seconds_factor;
@@ -43,6 +44,13 @@ static inline double *rb_bem_system_column(const rb_bem_system *s, int dof)
 rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                              double compression, rb_bond *bond, rb_bem_system **system,
                              rb_message *why);
+
+/* A = L U, from a matrix that is assembled; or its hierarchical form.  RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_bem_system_factor(rb_bem_system *system, rb_message *why);
+
+/* Solutions of A X = B in place, leading dimension ld, by GMRES, of a matrix that is assembled;
+ * rows as in rb_bem_system_solve_columns.  RB_ENOMEM; RB_MAXITER: X is as it was. */
+rb_status rb_bem_system_iterate(const rb_bem_system *s, int columns, double *X);
 
 /* As rb_bem_system_create, the matrix dense or hierarchical at any size: to compare. */
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,

@@ -29,9 +29,9 @@ static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_bod
 }
 
 /* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
- * where it is elastic. */
+ * where it is elastic; few: only for a few loads of a wheel of one material. */
 static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                              const rb_rolling_body *body, const rb_rolling_mesh *mesh, int few,
                               rb_bem_system **system, rb_message *why)
 {
     const rb_bem_material material = rb_rolling_material(rc, body);
@@ -47,7 +47,8 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *
             s = rb_bem_system_create_bonded(&boundary, material, &core,
                                             rb_rolling_base_material(rc, body), system, why);
     } else if (s == RB_OK) {
-        s = rb_bem_system_create_within(&boundary, material, plan->compression, system, why);
+        s = (few ? rb_bem_system_create_for_few : rb_bem_system_create_within)(
+            &boundary, material, plan->compression, system, why);
     }
     rb_bem_mesh_free(&core);
     rb_bem_mesh_free(&boundary);
@@ -65,11 +66,11 @@ rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_b
                : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary, why);
 }
 
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b,
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b, int few,
                                      rb_bem_system **system, rb_message *why)
 {
     return wheel_system(model->rc, &model->plan, of_b ? &model->rc->b : &model->rc->a, &model->mesh,
-                        system, why);
+                        few, system, why);
 }
 
 int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -87,7 +88,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     const double start = rb_seconds();
     const int by_waves = rb_rolling_goes_by_waves(rc, body);
     rb_status s = by_waves ? rb_rolling_flexibility_by_waves(rc, body, mesh, &one_body->f, why)
-                           : wheel_system(rc, plan, body, mesh, &one_body->system, why);
+                           : wheel_system(rc, plan, body, mesh, 0, &one_body->system, why);
 
     if (s == RB_OK && !by_waves) {
         rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,

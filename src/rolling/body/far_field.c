@@ -65,35 +65,38 @@ static int choose_points(const rb_bem_flexibility *f, int chosen[POINTS + 2])
     return n;
 }
 
-/* D (2m x loads), D0 (2m): what boundaries on the mesh of the model displace more under loads r (2n
- * x loads), and without any, than half-planes do.  From the matrix of the model, where it has
- * solved its boundaries; otherwise these are solved now, for these loads alone. */
+/* D (2m x loads): what the boundaries of the model displace more under loads r (2n x loads) than
+ * half-planes do, from its matrix. */
 static rb_status displaced_more(const rb_rolling_model *model, int loads, const double *r,
-                                double *D, double *D0, rb_message *why)
+                                double *D, rb_message *why)
+{
+    const int n = model->bodies.f.n, rows = 2 * (n + 1);
+    rb_rolling_bodies near = {.F = NULL};
+    const rb_status s = rb_rolling_bodies_near(model->rc, NULL, &model->mesh, &near, why);
+
+    if (s == RB_OK) {
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, 1.0,
+                    model->bodies.F, rows, r, 2 * n, 0.0, D, rows);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, -1.0, near.F,
+                    rows, r, 2 * n, 1.0, D, rows);
+    }
+    rb_rolling_bodies_free(&near);
+    return s;
+}
+
+/* D (2m): the same, and what they displace without loads, under the tractions r (2n) alone, from
+ * boundaries that are solved for these on the mesh of the model. */
+static rb_status displaced_by_boundaries(const rb_rolling_model *model, const double *r, double *D,
+                                         rb_message *why)
 {
     const rb_rolling_case *rc = model->rc;
-    const rb_rolling_bodies *bodies = &model->bodies;
-    const int n = bodies->f.n, rows = 2 * (n + 1), is_solved = bodies->system_a || bodies->system_b;
-    const size_t size = (size_t)rows * (size_t)loads;
+    const int n = model->mesh.n, rows = 2 * (n + 1);
     rb_arena scratch = {0};
-    double *own_r = rb_arena_doubles(&scratch, 2 * (size_t)n, (size_t)loads),
-           *w = rb_arena_doubles(&scratch, size, 1),
+    double *own_r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1),
+           *w = rb_arena_doubles(&scratch, (size_t)rows, 1),
            *w0 = rb_arena_doubles(&scratch, (size_t)rows, 1);
     rb_status s = scratch.failed ? rb_fail(why, RB_ENOMEM, "out of memory for a far field") : RB_OK;
 
-    if (s == RB_OK && is_solved) {
-        rb_rolling_bodies near = {.F = NULL};
-        s = rb_rolling_bodies_near(rc, NULL, &model->mesh, &near, why);
-        if (s == RB_OK) {
-            memcpy(D0, bodies->f.w0, (size_t)rows * sizeof *D0);
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, 1.0,
-                        bodies->F, rows, r, 2 * n, 0.0, D, rows);
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, -1.0, near.F,
-                        rows, r, 2 * n, 1.0, D, rows);
-        }
-        rb_rolling_bodies_free(&near);
-        return rb_arena_done(&scratch, s);
-    }
     for (int b = 0; b < 1 + rc->elastic_b && s == RB_OK; b++) {
         const rb_rolling_body *body = b ? &rc->b : &rc->a;
         const double along = b ? -1.0 : 1.0; /* B is computed as the mirror image (4.5) */
@@ -101,20 +104,18 @@ static rb_status displaced_more(const rb_rolling_model *model, int loads, const 
         rb_bem_system *system = NULL;
         if (!has_far_field(rc, body))
             continue;
-        for (size_t k = 0; k < 2 * (size_t)n * (size_t)loads; k++)
-            own_r[k] = k / (size_t)n % 2 ? along * r[k] : r[k];
-        s = rb_rolling_boundary_system(model, b, &system, why);
+        for (int k = 0; k < 2 * n; k++)
+            own_r[k] = k < n ? r[k] : along * r[k];
+        s = rb_rolling_boundary_system(model, b, 1, &system, why);
         if (s == RB_OK)
-            s = rb_bem_displacement_subtracted(system, rc->normals, loads, own_r, w, w0, why);
+            s = rb_bem_displacement_subtracted(system, rc->normals, 1, own_r, w, w0, why);
         if (s == RB_OK)
             s = rb_rolling_kind_of(body)->near(rc, &model->plan, body, &model->mesh, &near, why);
         if (s == RB_OK)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, loads, 2 * n, -1.0,
-                        rb_bem_flexibility_stored(&near.f), rows, own_r, 2 * n, 1.0, w, rows);
-        for (size_t k = 0; k < size && s == RB_OK; k++)
-            D[k] += k / (size_t)(n + 1) % 2 ? along * w[k] : w[k];
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, -1.0,
+                        rb_bem_flexibility_stored(&near.f), rows, own_r, 1, 1.0, w, 1);
         for (int i = 0; i < rows && s == RB_OK; i++)
-            D0[i] += i > n ? along * w0[i] : w0[i];
+            D[i] += (i > n ? along : 1.0) * (w[i] + w0[i]);
         rb_bem_flexibility_free(&near.f);
         rb_bem_system_free(system);
     }
@@ -161,13 +162,56 @@ static void add_displacement(const rb_rolling_far_field *far, const rb_bem_flexi
     }
 }
 
-rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int match,
+/* Most of what the places of f (x, m of them) are moved more (w), as far boundaries are: a line,
+ * which goes to the points of the far field. */
+static void move_line(const rb_bem_flexibility *f, double *w, rb_rolling_far_field *far, double *w0)
+{
+    double length = 0.0, first = 0.0, second = 0.0, mean = 0.0, slope = 0.0;
+
+    for (int i = 0; i < f->n; i++) {
+        length += f->h[i];
+        first += f->h[i] * f->x[i];
+        mean += f->h[i] * w[i];
+    }
+    const double middle = first / length;
+    mean /= length;
+    for (int i = 0; i < f->n; i++) {
+        const double x = f->x[i] - middle;
+        second += f->h[i] * x * x;
+        slope += f->h[i] * x * w[i];
+    }
+    slope /= second;
+    for (int i = 0; i < f->m; i++)
+        w[i] -= mean + slope * (f->x[i] - middle);
+    for (int k = 0; k < far->n; k++)
+        w0[k] += mean + slope * (far->x[k] - middle);
+}
+
+/* From now on the field moves elements like those of f under tractions r (2n) by D (2m). */
+static rb_status match(rb_rolling_far_field *far, const rb_bem_flexibility *f, const double *r,
+                       const double *D)
+{
+    const size_t rows = 2 * (size_t)f->m;
+
+    far->more = rb_arena_doubles(&far->memory, rows, 1);
+    if (far->memory.failed)
+        return RB_ENOMEM;
+    far->elements = f->n;
+    add_displacement(far, f, r, far->more);
+    for (size_t i = 0; i < rows; i++)
+        far->more[i] = D[i] - far->more[i];
+    for (int a = 0; a < 2; a++)
+        move_line(f, far->more + a * f->m, far, far->w0 + a * far->n);
+    return RB_OK;
+}
+
+rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int matched,
                                       rb_rolling_far_field **far, rb_message *why)
 {
     const rb_bem_flexibility *f = &model->bodies.f;
     const size_t rows = 2 * (size_t)f->m, tractions = 2 * (size_t)f->n;
     int chosen[POINTS + 2];
-    const int n = choose_points(f, chosen), loads = 2 * n + match;
+    const int n = choose_points(f, chosen), loads = 2 * n + matched;
     rb_arena scratch = {0};
     rb_rolling_far_field *made = *far = calloc(1, sizeof *made);
 
@@ -177,41 +221,57 @@ rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int match,
     made->x = rb_arena_doubles(&made->memory, (size_t)n, 1);
     made->w0 = rb_arena_doubles(&made->memory, 2 * (size_t)n, 1);
     made->F = rb_arena_doubles(&made->memory, 2 * (size_t)n, 2 * (size_t)n);
-    made->more = rb_arena_doubles(&made->memory, rows, 1);
     double *r = rb_arena_doubles(&scratch, tractions, (size_t)loads),
-           *D = rb_arena_doubles(&scratch, rows, (size_t)loads),
-           *D0 = rb_arena_doubles(&scratch, rows, 1);
-    rb_status s = made->memory.failed || scratch.failed
-                      ? rb_fail(why, RB_ENOMEM, "out of memory for a far field of %d points", n)
-                      : RB_OK;
+           *D = rb_arena_doubles(&scratch, rows, (size_t)loads);
+    rb_status s = made->memory.failed || scratch.failed ? RB_ENOMEM : RB_OK;
     for (int j = 0; j < 2 * n && s == RB_OK; j++) {
         const int element = chosen[j % n];
         r[(size_t)j * tractions + (size_t)(j / n * f->n + element)] = 1.0 / f->h[element];
     }
-    if (match && s == RB_OK) {
-        memcpy(r + 2 * (size_t)n * tractions, model->state.p, (size_t)f->n * sizeof *r);
-        memcpy(r + 2 * (size_t)n * tractions + f->n, model->state.q, (size_t)f->n * sizeof *r);
+    double *own_r = r + 2 * (size_t)n * tractions, *own_D = D + 2 * (size_t)n * rows;
+    if (matched && s == RB_OK) {
+        memcpy(own_r, model->state.p, (size_t)f->n * sizeof *r);
+        memcpy(own_r + f->n, model->state.q, (size_t)f->n * sizeof *r);
     }
     if (s == RB_OK)
-        s = displaced_more(model, loads, r, D, D0, why);
+        s = displaced_more(model, loads, r, D, why);
     for (int i = 0; i < 2 * n && s == RB_OK; i++) {
         const size_t row = (size_t)(i / n * f->m + chosen[i % n]);
         made->x[i % n] = f->x[chosen[i % n]];
-        made->w0[i] = D0[row];
+        made->w0[i] = f->w0[row];
         for (int j = 0; j < 2 * n; j++)
             made->F[i + (size_t)j * 2 * (size_t)n] = D[row + (size_t)j * rows];
     }
-    if (match && s == RB_OK) {
-        made->elements = f->n;
-        add_displacement(made, f, r + 2 * (size_t)n * tractions, made->more);
-        for (size_t i = 0; i < rows; i++)
-            made->more[i] = D[i + 2 * (size_t)n * rows] + D0[i] - made->more[i];
+    if (matched && s == RB_OK) {
+        cblas_daxpy((int)rows, 1.0, f->w0, 1, own_D, 1);
+        s = match(made, f, own_r, own_D);
     }
+    if (s == RB_ENOMEM)
+        rb_fail(why, RB_ENOMEM, "out of memory for a far field of %d points", n);
     if (s != RB_OK) {
         rb_rolling_far_field_free(made);
         *far = NULL;
     }
     return rb_arena_done(&scratch, s);
+}
+
+rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_far_field *far,
+                                     rb_message *why)
+{
+    const rb_bem_flexibility *f = &model->bodies.f;
+    double *r = rb_alloc((size_t)f->n, 2), *D = rb_alloc((size_t)f->m, 2);
+    rb_status s = r && D ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        memcpy(r, model->state.p, (size_t)f->n * sizeof *r);
+        memcpy(r + f->n, model->state.q, (size_t)f->n * sizeof *r);
+        s = displaced_by_boundaries(model, r, D, why);
+    }
+    if (s == RB_OK)
+        s = match(far, f, r, D);
+    free(r);
+    free(D);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for a far field") : s;
 }
 
 int rb_rolling_far_field_matches(const rb_rolling_far_field *far, int elements)

@@ -80,8 +80,9 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
                                double length[RB_ROLLING_TERMS]);
 
-/* Factorises the boundary elements of A or B, a wheel, again; owned by the caller. */
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b,
+/* The boundary elements of A or B, a wheel, again, factored or for few loads
+ * (rb_bem_system_create_for_few); owned by the caller. */
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b, int few,
                                      rb_bem_system **system, rb_message *why);
 /* 1: the flexibility of the wheel has its near field in closed form. */
 int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,

@@ -16,9 +16,10 @@ enum {
     ROUNDS = 10,
     MOST_PATCHES = 16
 };
-/* Edges that have come to rest, or near enough after all rounds, or for more elements to go on
- * from: in lengths of the outermost elements, which are the smallest of the mesh. */
-static const double AT_REST = 0.1, NEAR_REST = 3.0, TO_GO_ON = 1.0;
+/* Edges that have come to rest, or near enough after all rounds, for more elements to go on from,
+ * or for the far field to be matched: in lengths of the outermost elements, which are the smallest
+ * of the mesh. */
+static const double AT_REST = 0.1, NEAR_REST = 3.0, TO_GO_ON = 1.0, TO_MATCH = 4.0;
 /* Elements of a wheel outside the contact, as a part of those asked for, that its first far field
  * is found with: a sixth of the time. */
 static const double COARSE_BOUNDARY = 0.5;
@@ -200,9 +201,9 @@ static int same_edges(const patches *a, const patches *b)
 /* From a solution to elements fitted to its edges, until these rest; where they do not, or
  * where no solution is found on them, to equal ones.
  * Wheels are searched by a far field.  with_systems: where its edges rest the boundary elements of
- * the same mesh are solved, at first for a far field of their own; then wholly, and if these put
- * the edges elsewhere, the search goes on by their far field. room: kept beyond the edges at first,
- * as a part of the patch.  enough: how nearly they rest. */
+ * the same mesh are solved, at first for the tractions found, which match the far field to them;
+ * then wholly, and if these put the edges elsewhere, the search goes on by their far field. room:
+ * kept beyond the edges at first, as a part of the patch.  enough: how nearly they rest. */
 static rb_status refit(rb_rolling_model *model, double room, int with_systems, double enough,
                        rb_message *why)
 {
@@ -252,18 +253,23 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
             }
-            rest = moved < (round + 1 == rounds ? NEAR_REST : enough) ||
+            /* The far field of another mesh is matched to this one; edges that rest by its far
+             * field are checked by the boundaries. */
+            const int by_systems = with_systems && by_far_field, is_last = round + 2 >= rounds,
+                      will_match = by_systems && !is_last && model->plan.elements >= FIRST &&
+                                   !rb_rolling_far_field_matches(model->far, model->mesh.n);
+            rest = moved < (round + 1 == rounds ? NEAR_REST
+                            : will_match        ? TO_MATCH
+                                                : enough) ||
                    (is_checked && same_edges(&expected, &found));
-            if (with_systems && by_far_field && (rest || round + 2 >= rounds)) {
-                const int is_near = rb_rolling_far_field_matches(model->far, model->mesh.n) ||
-                                    model->plan.elements < FIRST || round + 2 >= rounds;
+            if (will_match && rest) {
+                s = rb_rolling_far_field_match(model, model->far, why);
+                forget(known);
+                rest = 0;
+            } else if (by_systems && (rest || is_last)) {
                 expected = rest ? found : (patches){.count = 0};
                 drop_far_field(model);
                 rest = 0;
-                if (!is_near) {
-                    s = rb_rolling_far_field_create(model, 1, &model->far, why);
-                    forget(known);
-                }
             }
             if (has_far && !model->far)
                 forget(known);

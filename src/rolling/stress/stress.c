@@ -122,7 +122,7 @@ static rb_status create_wheel(rb_rolling_field *f, rb_message *why)
 {
     const rb_rolling_model *model = f->model;
     rb_status s =
-        model->bodies.system_a ? RB_OK : rb_rolling_boundary_system(model, 0, &f->made, why);
+        model->bodies.system_a ? RB_OK : rb_rolling_boundary_system(model, 0, 0, &f->made, why);
     if (s != RB_OK)
         return s;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(system_of(f));
