@@ -41,6 +41,14 @@ TEST(reactions_are_proved)
     CHECK_RUN(rollbem("friction --prove no"), 1, err, "no: not proved: ");
     CHECK_RUN(rollbem("friction --kind siconos-soclcp --prove cone"), 65, err,
               "--prove does not read problems on cones");
+    /* ranks of zero and a worst contact with an error of 0 were printed */
+    CHECK_RUN(rollbem("friction --kind siconos-soclcp --facts --json cone"), 65, err,
+              "--facts does not read problems on cones");
+    assert_non_null(strstr(out, "\"rank\": null"));
+    assert_non_null(strstr(out, "\"asymmetry\": null"));
+    CHECK_RUN(rollbem("friction --kind siconos-soclcp --json cone"), 0, out,
+              "\"worst_residual\": null");
+    assert_non_null(strstr(out, "\"worst_contact\": null"));
     CHECK_RUN(rollbem("friction --prove --all slides"), 64, err, "not with --all");
     CHECK_RUN(rollbem("friction --prove --trace slides"), 64, err, "not with --trace");
 }

@@ -139,6 +139,12 @@ static void measure(const char *name, const rb_friction_problem *p, tally *t)
     const rb_status s = least_seconds("auto", p, opt, INFINITY, r, &seconds, &info);
     const champion of_auto = {info.flops, seconds, "auto", "auto"};
     find_best(p, &of_auto, r, &part, &any);
+    /* Again, so that work of others on the machine meets both sides. */
+    if (s == RB_OK) {
+        double again = INFINITY;
+        least_seconds("auto", p, opt, INFINITY, r, &again, &info);
+        seconds = fmin(seconds, again);
+    }
     const double flops = info.flops, ratio = flops / part.flops;
     const double first = first_member(p, r), slower = seconds / part.seconds;
     t->problems++;

@@ -132,7 +132,8 @@ static cli_exit failed(friction_result *r, rb_status s, const char *text)
 {
     r->status = rb_status_text(s);
     r->m = 0;
-    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
+        r->facts.asymmetry = NAN;
     return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file,
                     text[0] ? text : rb_status_text(s));
 }
@@ -513,6 +514,8 @@ static cli_exit solve_kind(friction_run *run, friction_result *r)
         return failed(r, RB_EINVAL, "--all does not read problems on cones");
     if (run->o->prove)
         return failed(r, RB_EINVAL, "--prove does not read problems on cones: leave it out");
+    if (run->o->facts)
+        return failed(r, RB_EINVAL, "--facts does not read problems on cones: leave it out");
     return solve_cones(run, r);
 }
 
@@ -526,6 +529,7 @@ static cli_exit solve_file(void *context, const char *path)
     run->steps = json_array();
     const cli_exit code = solve_kind(run, &r);
     const int known = r.m > 0 || (r.dimension > 0 && code == CLI_OK);
+    const int has_contacts = known && r.dimension > 0; /* cones have no law of their own */
     const rb_friction_info *info = &r.info;
     const rb_friction_facts *facts = &r.facts;
     const cli_value values[] = {
@@ -537,8 +541,8 @@ static cli_exit solve_file(void *context, const char *path)
         CLI_KNOWN("iterations", "iterations", info->iters, known),
         CLI_NUMBER("residual", "residual", info->residual),
         CLI_NUMBER("scaled_residual", "scaled", info->scaled),
-        CLI_NUMBER("worst_residual", NULL, known ? info->worst : NAN),
-        CLI_KNOWN("worst_contact", NULL, info->contact + 1, known && info->contact >= 0),
+        CLI_NUMBER("worst_residual", NULL, has_contacts ? info->worst : NAN),
+        CLI_KNOWN("worst_contact", NULL, info->contact + 1, has_contacts && info->contact >= 0),
         CLI_TEXT("measure", NULL, r.measure),
         CLI_TEXT("note", NULL, r.note.text[0] ? r.note.text : NULL),
         CLI_NUMBER("floor", "floor", info->floor),
