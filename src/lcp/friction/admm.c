@@ -122,11 +122,13 @@ static rb_status go_on_alternating(void *state)
         const double *q = t->shared->local->q, *rho = t->measure->rho;
         const int d = t->d;
         memcpy(a->before, a->x, (size_t)t->m * sizeof(double));
+        /* (W + P) r = P (z - y) - q - s */
         for (int i = 0; i < t->m; i++)
             a->r[i] = a->penalty / rho[2 * (i / d)] * (a->z[i] - a->y[i]) - q[i] - a->s[i];
         st = rb_friction_local_solve(&a->system, a->r);
         if (st != RB_OK)
             return st;
+        /* x = r' + y, of which the next z is the projection; the residuals as velocities. */
         for (int i = 0; i < t->m; i++) {
             const double unit = a->penalty / rho[2 * (i / d)], z = a->z[i];
             a->x[i] = ALPHA * a->r[i] + (1.0 - ALPHA) * z + a->y[i];
@@ -134,7 +136,7 @@ static rb_status go_on_alternating(void *state)
             a->dual += unit * unit * (a->x[i] - a->before[i]) * (a->x[i] - a->before[i]);
         }
         rb_anderson_step(&a->anderson, a->before, a->x, a->r);
-        split(a);
+        split(a); /* z = P_K(x), y = x - z, s of -P y */
         t->info->flops += (46.0 + 8.0 * a->anderson.used) * t->m;
         rb_friction_system_count(&a->system, t);
         a->k++;

@@ -212,6 +212,7 @@ static rb_status go_on_sweeping(void *state)
     if (s->k == 0 && t->opt.r0 && rb_friction_task_accepts(t, current_error(s, 0)))
         return RB_OK;
     while (s->k < s->limit && rb_friction_task_goes_on(t)) {
+        /* (12): each contact with the newest forces of all others, which u holds. */
         double sum = 0.0;
         if (t->d == 2)
             for (int c = 0; c < t->contacts; c++)

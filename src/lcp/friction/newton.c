@@ -83,6 +83,7 @@ static rb_status step(newton *s)
 {
     rb_friction_task *t = s->task;
     const double before = rb_friction_task_spent(t);
+    /* F and its derivatives A by r and B by u; in the global form also e = K v - H r - f. */
     const double merit = evaluate(s, t->r, t->u, s->at.F);
     rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
     rb_status st = RB_SINGULAR;
@@ -96,11 +97,13 @@ static rb_status step(newton *s)
                 for (int a = 0; a < d; a++)
                     s->at.A[(c * d + b) * d + a] += eta * s->at.B[(c * d + b) * d + a];
             }
+        /* (11): (A + B W) dr = -F, or K dv - H dr = -e and A dr + B H' dv = -F. */
         st = rb_friction_system_step(&s->system, &s->at, s->e, s->dr, s->dv);
         if (st == RB_OK)
             break;
     }
     if (st == RB_OK) {
+        /* du = W dr or H' dv: u is linear in the step, so that trials need no product. */
         rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
         const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
         double highest = merit + imbalance, lowest = INFINITY, length = 1.0;

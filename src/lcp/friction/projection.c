@@ -88,6 +88,7 @@ static rb_status go_on_projecting(void *state)
             s->rho *= RB_FRICTION_UPK_SHRINK;
         }
         if (s->extragradient) {
+            /* Korpelevich: the step from r with uhat of the point where the first one led. */
             project_all(s, s->up, s->p);
             step = rb_distance((size_t)t->m, s->p, t->r);
             uhat_at(s, s->p, s->up);

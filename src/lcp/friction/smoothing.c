@@ -111,6 +111,8 @@ rb_status rb_friction_smooth(const rb_friction_smooth_problem *problem, int limi
             memcpy(z, s.trial, n * sizeof *z);
             norm = next;
         }
+        /* The next beta; mu and eps follow the residual without smoothing, h, so that both tend to
+         * 0 with it: eps <= h^2, and mu stays below what the cones' nearest kink (gap) allows. */
         const double h = st == RB_OK ? residual_norm(&s, 0.0, 0.0, z, &gap) : 0.0;
         power *= ETA;
         if (st == RB_OK && !isfinite(h))
