@@ -12,6 +12,7 @@ struct json_t; /* jansson's */
 typedef struct {
     int violations, numbers; /* numbers: how many were compared with recomputed values */
     double residual;         /* of the printed state */
+    int bars;                /* 1: it states error bars, which are not checked */
     int prove;               /* set by the caller: 1: also prove the solution */
     rb_contact_proof proof;  /* of the last state that was proved; steps: of a history */
 } rb_certificate_outcome;

@@ -16,6 +16,7 @@ typedef struct {
     int quiet;       /* 1: violations are counted and not told */
     int judges;      /* 1: the laws are judged while the states are read */
     uint64_t moving; /* 0: numbers are taken as they are; otherwise each is moved by a rounding */
+    int refined;     /* 1: --accuracy has chosen the number of elements */
     int proves;      /* 1: solutions are proved while they are judged */
     int step;        /* of a sequence that is judged, from 1 on; 0: the result */
     const char *of;  /* what is judged, before every violation, such as "solution 2: " */

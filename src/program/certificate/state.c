@@ -384,14 +384,18 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
 
     if (n < 3)
         return rb_certificate_refuse(c, "its table has no elements", why);
+    c->refined = resolved->accuracy > 0.0;
     c->proves = c->judges && (c->found->prove || json_object_get(stored->summary, "proof"));
     rb_status s = stored->history ? follow(c, resolved, stored, n, r, states, why)
                                   : restore_step(c, resolved, stored, n, r, why);
     if (s == RB_OK)
         s = rb_rolling_model_solution(&r->model, &r->solution, why);
     /* The creepage of free rolling is that of another solution, found as the solve has found it. */
-    if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY &&
-        rb_rolling_largest_mu(rc) > 0.0 && n >= rc->contact_elements) {
+    if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY && c->refined)
+        /* on as many elements across its own contact as --accuracy has chosen */
+        r->solution.free_creepage = rb_certificate_member(stored->summary, "free_creepage");
+    else if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY &&
+             rb_rolling_largest_mu(rc) > 0.0 && n >= rc->contact_elements) {
         rb_message unsolved;
         double *creepage = &r->solution.free_creepage;
         const rb_status free_rolling = rb_rolling_free_creepage(&r->model, creepage, &unsolved);

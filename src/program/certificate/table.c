@@ -141,10 +141,9 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
     const char *refused =
         rb_case_has_steps(resolved)
             ? "its last state depends on the steps before it: take --json --states"
-        : resolved->error || resolved->accuracy > 0.0 ? "error bars take solutions on other meshes"
-        : strncmp(text, "x/a\t", 4) == 0              ? "dimensionless: take --json"
-        : resolved->units != RB_UNITS_MM              ? "units other than mm, N, MPa"
-                                                      : NULL;
+        : strncmp(text, "x/a\t", 4) == 0 ? "dimensionless: take --json"
+        : resolved->units != RB_UNITS_MM ? "units other than mm, N, MPa"
+                                         : NULL;
     rb_status s = refused ? rb_certificate_refuse(&c, refused, &reason) : RB_OK;
     /* "# steady, solved; residual 3.1e-14" */
     const char *of = strstr(text, "; residual "), solved[] = ", solved";

@@ -24,9 +24,10 @@ static const char about[] =
     "position by position. Solved again are free rolling for free_creepage, the\n"
     "other solutions of --all-solutions, and where the mouth of a crack closes.\n"
     "A table of derivatives has no state and cannot be checked: take --json.\n"
-    "Not checked: iterations, seconds, names of the processor's kernels. Refused:\n"
-    "histories without states; cracks without states, or growing; curves, error\n"
-    "bars, units other than mm, N, MPa; CSV.\n"
+    "Not checked: iterations, seconds, names of the processor's kernels, and what\n"
+    "takes other meshes: how large error bars are, and free_creepage of --accuracy.\n"
+    "Refused: histories without states; cracks without states, or growing; error\n"
+    "bars of steps, stress and cracks; curves; units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"
@@ -41,8 +42,8 @@ static cli_exit print_verdict(const char *path, rb_status s, const rb_certificat
     if (s != RB_OK)
         return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why->text);
     if (found->violations == 0)
-        printf("%s: valid: %d numbers computed again, residual %.2g\n", path, found->numbers,
-               found->residual);
+        printf("%s: valid: %d numbers computed again, residual %.2g%s\n", path, found->numbers,
+               found->residual, found->bars ? "; error bars are taken as stated" : "");
     const int unproved =
         found->prove && (!found->proof.proved || found->proof.steps_proved < found->proof.steps);
     if (found->prove) {
