@@ -65,18 +65,23 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
 
 /* ---- From their values to a bar ---------------------------------------------------- */
 
+/* Whether the meshes go to and fro, as the edges pass elements: finer ones have not come nearer
+ * yet. Equal values differ by rounding, which turns one way or the other. */
+static int meshes_turn(const double coarser[], double own)
+{
+    const double first = coarser[1] - coarser[0], second = own - coarser[1];
+
+    return first * second < -1e-6 * gsl_pow_2(fmax(fabs(first), fabs(second)));
+}
+
 /* Three times the spread over the contact meshes: three errors where they are of first
- * order, nine where of second.  Five times the spread where the meshes go to and fro, as
- * the edges pass elements: finer ones have not come nearer yet. */
+ * order, nine where of second.  Five times the spread where they turn. */
 double rb_rolling_contact_error(const double coarser[], double own)
 {
     const double most = fmax(own, fmax(coarser[0], coarser[1]));
     const double least = fmin(own, fmin(coarser[0], coarser[1]));
-    const double first = coarser[1] - coarser[0], second = own - coarser[1];
-    /* equal values differ by rounding, which turns one way or the other */
-    const int turns = first * second < -1e-6 * gsl_pow_2(most - least);
 
-    return (turns ? 5.0 : 3.0) * (most - least) +
+    return (meshes_turn(coarser, own) ? 5.0 : 3.0) * (most - least) +
            0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
 }
 
@@ -149,7 +154,7 @@ static unresolved_stick find_unresolved_stick(const rb_rolling_case *rc,
 
 static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
 {
-    return s->shift[i] / (rc->formulation == RB_STEADY ? s->h[i] : 1.0); /* over an element */
+    return rc->formulation == RB_STEADY ? s->slip[i] : s->shift[i];
 }
 
 /* Whether slip of one direction grows from a stick zone on, as far as element i: the zone ends
@@ -167,9 +172,10 @@ static int grows_from_stick(const rb_rolling_case *rc, const rb_rolling_solution
     return 0;
 }
 
-/* Whether an element slips by no more than the slip changes from there to the next one: a
- * finer mesh may find that some of it sticks.  An elastic third body that rolls in always sticks at
- * first: it is not sheared yet, and the bound of friction begins with an infinite slope. */
+/* Whether an element slips by no more than the slip changes from there to the next one, at an end
+ * of the contact by no more than five quarters of that, as its slope is infinite there:
+ * a finer mesh may find that some of it sticks.  An elastic third body that rolls in always sticks
+ * at first: it is not sheared yet, and the bound of friction begins with an infinite slope. */
 static int may_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
 {
     const double own = slip_of(rc, s, i);
@@ -180,7 +186,10 @@ static int may_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, in
     for (int j = i - 1; j <= i + 1; j += 2) {
         if (j < 0 || j >= s->n || s->zone[j] == RB_ZONE_SEPARATED)
             continue;
-        if (s->zone[i] > RB_ZONE_STICK && fabs(own) <= fabs(own - slip_of(rc, s, j)))
+        const int other = 2 * i - j;
+        const double steeper =
+            other < 0 || other >= s->n || s->zone[other] == RB_ZONE_SEPARATED ? 1.25 : 1.0;
+        if (s->zone[i] > RB_ZONE_STICK && fabs(own) <= steeper * fabs(own - slip_of(rc, s, j)))
             return !grows_from_stick(rc, s, i);
     }
     return 0;
@@ -306,11 +315,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rounding * fmax(strain, fabs(s->creepage));
     case RB_SCALE_WIDTH:
         /* found within an element where bodies relax and the pressure is no power there; equal
-         * elements show it to .02 to .15 of one, as it lies in one */
-        return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded ? 0.5
-                               : rc->mesh == RB_MESH_UNIFORM              ? 0.1
-                                                                          : 0.0) *
-                                  rb_rolling_longest_element(s->n, s->zone, s->h);
+         * elements show it to .02 to .15 of one, as it lies in one; friction between unlike bodies
+         * may lift an edge of a punch less than its first element is long */
+        return rounding * a +
+               (rb_rolling_relaxes(rc) || s->edges_bounded ? 0.5
+                : rc->mesh == RB_MESH_UNIFORM              ? 0.1
+                                                           : 0.0) *
+                   rb_rolling_longest_element(s->n, s->zone, s->h) +
+               (rc->mesh == RB_MESH_PUNCH && rb_rolling_couples(rc)
+                    ? 0.5 * (s->h[0] + s->h[s->n - 1])
+                    : 0.0);
     case RB_SCALE_PRESSURE:
         if (rb_rolling_presses_with_end(rc, s))
             return NAN; /* infinite */
@@ -484,6 +498,18 @@ double rb_rolling_contact_error_with(const double coarser[], double own, double 
                                        rb_rolling_contact_error(second, own)));
 }
 
+/* At least twice the spread over all meshes, with that of another one, NAN where it does not have
+ * the value: three that see an edge in the same phase agree by chance, as far as they all err. */
+static double error_of_phases(const double coarser[], double own, double another)
+{
+    const double most = fmax(fmax(own, another), fmax(coarser[0], coarser[1]));
+    const double least = fmin(fmin(own, another), fmin(coarser[0], coarser[1]));
+
+    return fmax(rb_rolling_contact_error(coarser, own),
+                (meshes_turn(coarser, own) ? 4.0 : 2.0) * (most - least)) +
+           0.0 * (own + coarser[0] + coarser[1]);
+}
+
 /* From the case's own results and those of its coarser runs. */
 static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const sample *own,
                             error_parts *parts, rb_message *why)
@@ -500,17 +526,22 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
             rb_fail(why, status, "error bars: %d contact elements: %.200s",
                     coarser.contact_elements, rb_status_reason(status, &reason));
     }
-    /* Another mesh where there are several patches.  The edges of each pass elements on
-     * their own, and three meshes agree by chance: a fourth one between them.  A fitted patch
-     * has 12 elements at least, which half of fewer than 24 still are: a finer one. */
+    /* Edges pass elements, and three meshes agree by chance: a fourth one, which costs little
+     * between the coarser ones. Those of several patches pass them each on its own: between the
+     * finer ones. A fitted patch has 12 elements at least, which half of fewer than 24 still are: a
+     * finer one. */
     int fewest = 24;
     for (int k = 0; k < patches; k++)
         fewest = own->solution.patch[k].contact < fewest ? own->solution.patch[k].contact : fewest;
-    const double other_is = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
+    const double other_is = patches < 2                                 ? 0.6
+                            : rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0
+                                                                        : 0.85;
     rb_rolling_case other_mesh = *rc;
     other_mesh.contact_elements = (int)(other_is * rc->contact_elements);
+    if (patches < 2 && rc->steps > 0)
+        other_mesh.steps = (int)ceil(other_is * rc->steps);
     const int has_another =
-        status == RB_OK && patches > 1 && take_sample(&other_mesh, with, &another, NULL) == RB_OK;
+        status == RB_OK && take_sample(&other_mesh, with, &another, NULL) == RB_OK;
     rb_rolling_errors *const part_of[] = {&parts->contact, &parts->boundary};
     for (int k = 0; k < 2 && status == RB_OK; k++)
         status = errors_alloc(own->stress[0].bonds, own->stress[1].bonds, part_of[k]);
@@ -536,7 +567,8 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
                                       ? take_unseen(&own->solution, runs, *value, coarser)
                                       : 0.0;
             *number_at(&contact, t, k, &scale) =
-                rb_rolling_contact_error_with(coarser, *value, other, other_is > 1.0) +
+                (patches > 1 ? rb_rolling_contact_error_with(coarser, *value, other, other_is > 1.0)
+                             : error_of_phases(coarser, *value, other)) +
                 least_error(rc, &own->solution, t > 0, scale) + unseen;
             *number_at(&boundary, t, k, &scale) = rb_rolling_boundary_error(runs, coarser, *value);
         }
