@@ -6,6 +6,8 @@
 #include "numbers.h"
 #include "solved.h"
 
+#include <float.h>
+
 static double log_uniform(double a, double b)
 {
     return exp(between(log(a), log(b)));
@@ -31,6 +33,24 @@ static rb_rolling_case random_case(double mu_from, double mu_to)
         rc.shift = rc.mu * rc.half_width * rc.half_width / rc.a.radius * between(-3.0, 3.0);
     rc.contact_elements = 15 + rand() % 45;
     return rc;
+}
+
+/* The force of a free axle is known as closely as the moment of the pressures, which nearly cancel:
+ * next to the friction of a very small mu that is more than the tolerance. */
+TEST(a_free_axle_is_met_to_the_rounding_of_its_moment)
+{
+    static const char *const bodies[] = {"", "young-b 70000 poisson-b 0.33"};
+    static const double radius[] = {10.0, 50.0, 100.0};
+    for (int k = 0; k < 12; k++) {
+        rb_rolling_case rc = rolling_case("support halfplane formulation steady mu 1e-9 free-axle");
+        set(&rc, "radius %g half-width %g contact-elements %d %s", radius[k % 3], 0.3 + 0.14 * k,
+            k % 2 ? 20 : 40, bodies[k / 6]);
+        OWNED(rb_rolling_solution) s;
+        CHECK_OK(rb_rolling_solve(&rc, &s, &message));
+        CHECK_MAX(s.residual, 1e-10, "residual %d", k);
+        CHECK_MAX(fabs(s.resistance_moment + s.tangential_load * radius[k % 3]),
+                  4.0 * DBL_EPSILON * s.normal_load * s.half_width, "torque of the axle %d", k);
+    }
 }
 
 TEST(lemke_and_newton_agree_on_500_cases)
