@@ -1,8 +1,8 @@
 /* Random hands: a mouse, a finger and keys that do anything anywhere, and the tasks of a lecturer.
- * node web/hands.mjs [build [seconds [seed]]] prints what was done and every fault. */
+ * node web/tests/hands.mjs [build [seconds [seed]]] prints what was done and every fault. */
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { close_browser, open_page } from "./chromium.mjs";
+import { close_browser, open_page } from "../chromium.mjs";
 
 const SIZES = [
     [1280, 720],

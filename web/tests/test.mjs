@@ -1,4 +1,4 @@
-/* Tests of the page: node web/test.mjs [build [first | second | smoke]], with verdicts as tests/run reads them.  The
+/* Tests of the page: node web/tests/test.mjs [build [first | second | smoke]], with verdicts as tests/run reads them.  The
  * library as WebAssembly answers as the program does; then the page itself in a headless Chromium.  Much of the time of a
  * browser is waiting for its next frame, so tests/page runs both halves at once; without a word all tests run. */
 import { spawnSync } from "node:child_process";
@@ -16,28 +16,28 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
-import { CHROMIUM, close_browser, open_page } from "./chromium.mjs";
+import { CHROMIUM, close_browser, open_page } from "../chromium.mjs";
 import { crawl } from "./crawl.mjs";
 import { SIZES, drag_brake, drag_brake_in_firefox } from "./still.mjs";
 import { SIZES as WINDOWS, seen_together } from "./together.mjs";
 import { open_in_firefox } from "./firefox.mjs";
 import { random_hands, tasks_done } from "./hands.mjs";
-import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
-import { value_to_hold, with_motion } from "./controls.js";
-import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
-import { change_along, effects, kinks_of, told_change } from "./matters.js";
-import { EXAMPLES, sentence_of, tie_of } from "./step.js";
-import { proof_in_words } from "./proof.js";
-import { LESSONS, PAGES } from "./take.js";
-import { headline_of, slip_share } from "./hero.js";
-import { fit_lens, offsets_of } from "./lens.js";
-import { PRESETS, ground_of, share_of_ground, with_ground, with_mu, with_point, with_support } from "./state.js";
-import { ticks, zone_colours } from "./draw.js";
-import { load_library } from "./library.js";
-import { bytes_of } from "./solver.js";
-import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
-import { words } from "./words.js";
-import { answer } from "./worker.js";
+import { axes_of, axes_still_fit, bounds_of, tidy_number } from "../contact.js";
+import { value_to_hold, with_motion } from "../controls.js";
+import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "../crack.js";
+import { change_along, effects, kinks_of, told_change } from "../matters.js";
+import { EXAMPLES, sentence_of, tie_of } from "../step.js";
+import { proof_in_words } from "../proof.js";
+import { LESSONS, PAGES } from "../take.js";
+import { headline_of, slip_share } from "../hero.js";
+import { fit_lens, offsets_of } from "../lens.js";
+import { PRESETS, ground_of, share_of_ground, with_ground, with_mu, with_point, with_support } from "../state.js";
+import { ticks, zone_colours } from "../draw.js";
+import { load_library } from "../library.js";
+import { bytes_of } from "../solver.js";
+import { read_case_file, read_link, table_of_drawn, write_link } from "../state.js";
+import { words } from "../words.js";
+import { answer } from "../worker.js";
 
 const build = process.argv[2] ?? "build",
     program = resolve(`${build}/rollbem`);

@@ -1,8 +1,8 @@
 /* Nothing moves under a hand: a mouse drags "brake" over its whole way, at five sizes; what moves meanwhile, in CSS pixels,
- * and Chromium's layout shift, also while the page loads.  node web/still.mjs [build] prints them. */
+ * and Chromium's layout shift, also while the page loads.  node web/tests/still.mjs [build] prints them. */
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { close_browser, open_page } from "./chromium.mjs";
+import { close_browser, open_page } from "../chromium.mjs";
 import { open_in_firefox } from "./firefox.mjs";
 
 export const SIZES = [

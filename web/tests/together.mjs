@@ -1,8 +1,8 @@
 /* Pictures and their sliders in one window: every slider of the page in the middle of the window, or as near as the page
- * lets it, and how much of its picture is then to be seen.  node web/together.mjs [build] prints it at four sizes. */
+ * lets it, and how much of its picture is then to be seen.  node web/tests/together.mjs [build] prints it at four sizes. */
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { close_browser, open_page } from "./chromium.mjs";
+import { close_browser, open_page } from "../chromium.mjs";
 
 export const SIZES = [
     [1280, 590],
