@@ -455,7 +455,7 @@ TEST(curves_go_on_behind_points_without_a_solution)
 #define STEEP                                                                                      \
     "curve --similar --support halfplane --gap parabola --young 210000 --poisson 0.28 "            \
     "--radius 460 --load 1000 --mu 0.02 --friction-law linear --mu-fall 0.3 --slip-scale 8 "       \
-    "--speed 20000 --points 5 --contact-elements 100 --mesh fitted --to 0.56 "
+    "--speed 20000 --points 5 --contact-elements 100 --mesh uniform --to 0.56 "
     assert_int_equal(rollbem(STEEP "--json"), 1);
     held_json *root = NOT_NULL(json_loads(out, 0, NULL));
     const json_t *curve = json_object_get(root, "curve");
@@ -465,11 +465,11 @@ TEST(curves_go_on_behind_points_without_a_solution)
     for (size_t i = 0; i < 10; i++) {
         const int middle = i == 2 || i == 3 || i == 6 || i == 7;
         CHECK_ABS(entry(curve, "creep_ratio", i), 0.14 * (double)(i < 5 ? i : 9 - i), 1e-9, "s");
-        CHECK_REL(entry(curve, "kappa", i), 0.96963, 1e-4, "kappa");
+        CHECK_REL(entry(curve, "kappa", i), 0.96950, 1e-4, "kappa");
         assert_int_equal(isnan(entry(curve, "force_ratio", i)), middle);
         assert_int_equal(isnan(entry(curve, "normal_load", i)), middle);
     }
-    CHECK_REL(entry(curve, "force_ratio", 4), -0.0627098, 1e-5, "beyond");
+    CHECK_REL(entry(curve, "force_ratio", 4), -0.0627359, 1e-5, "beyond");
     /* and a second curve */
     CHECK_RUN(rollbem(STEEP "--mu 0.02,0.3"), 1, err, "curve, mu(0) = 0.6: 10 points in");
     assert_non_null(strstr(out, "\n0.6\t"));
