@@ -12,7 +12,7 @@ static const struct {
 } layers[] = {
     {"base", " base blas sparse units "},
     {"base/io", " base units sparse io io_fclib io_contact "},
-    {"bem", " base sizes blas sparse bem "},
+    {"bem", " base sizes blas gmres sparse bem "},
     {"bem/mesh", " bem boundary "},
     {"bem/layers", " blas bem "},
     {"bem/products", " blas sizes bem "},
@@ -20,7 +20,7 @@ static const struct {
     {"lcp/lemke", " base sizes blas lcp "},
     {"lcp/portfolio", " base sizes blas lcp "},
     {"lcp/proof", " base lcp "},
-    {"lcp/contact", " base sizes lcp contact "},
+    {"lcp/contact", " base sizes gmres lcp contact "},
     {"lcp/friction", " base sizes blas sparse io io_fclib lcp contact friction "},
     {"rolling/case", " base sizes units io io_contact bem boundary rolling options case "},
     {"rolling/body", " base sizes blas units bem boundary lcp contact rolling options "},
@@ -162,12 +162,13 @@ static int height_of(const char *file)
 /* A header by which a folder is used from others: src/a/b/b.h, and few others. */
 static int is_door(const char *folder, const char *name)
 {
-    static const char others[] = " base/blas base/sizes base/sparse base/units bem/boundary "
-                                 "base/io/io_contact "
-                                 "base/io/io_fclib rolling/case/closed_forms "
-                                 "rolling/case/options rolling/case/rubber "
-                                 "analysis/sensitivity/derivatives "
-                                 "analysis/crack/crack_case analysis/fit/fit_case ";
+    static const char others[] =
+        " base/blas base/gmres base/sizes base/sparse base/units bem/boundary "
+        "base/io/io_contact "
+        "base/io/io_fclib rolling/case/closed_forms "
+        "rolling/case/options rolling/case/rubber "
+        "analysis/sensitivity/derivatives "
+        "analysis/crack/crack_case analysis/fit/fit_case ";
     const char *slash = strrchr(folder, '/');
     char header[84];
     snprintf(header, sizeof header, " %s/%s ", folder, name);

@@ -3,9 +3,9 @@
  * diagonal those of a held one are not worse: 30 to 60 products for any number of elements, where
  * an LU costs as much as a third of so many products as there are unknowns. */
 #include "bem/system.h"
+#include "base/gmres.h"
 
 #include <cblas.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,61 +24,45 @@ static void turn_rows(const rb_bem_system *s, const double *rows, double *y)
     memcpy(y + rest, rows, offset * sizeof *y);
 }
 
+/* x = D^-1 v, D the entries of the columns in the rows that are turned to them. */
+static void divide_by_diagonal(const rb_bem_system *s, const double *v, double *x)
+{
+    const size_t n = (size_t)s->dofs;
+
+    for (size_t i = 0; i < n; i++)
+        x[i] = v[i] / s->A[(i + (size_t)s->offset) % n + i * (size_t)s->ld];
+}
+
 rb_status rb_bem_system_iterate(const rb_bem_system *s, int columns, double *X)
 {
     const int n = s->dofs;
-    const size_t size = (size_t)n;
-    double *V = rb_alloc(size, MOST + 1), *R = rb_alloc(MOST + 1, MOST),
-           *product = rb_alloc(size, 1), cosine[MOST], sine[MOST], y[MOST + 1];
-    rb_status status = V && R && product ? RB_OK : RB_ENOMEM;
+    double *vectors = rb_alloc((size_t)n, MOST + 2), *product = vectors, *v[MOST + 1];
+    rb_gmres g = {.n = n, .most = MOST, .v = v, .small = rb_alloc(RB_GMRES_SMALL(MOST), 1)};
+    rb_status status = vectors && g.small ? RB_OK : RB_ENOMEM;
 
+    for (int k = 0; status == RB_OK && k <= MOST; k++)
+        v[k] = vectors + (size_t)(k + 1) * (size_t)n;
     for (int c = 0; c < columns && status == RB_OK; c++) {
         double *x = X + (size_t)c * (size_t)s->ld;
-        turn_rows(s, x, V);
-        const double norm = cblas_dnrm2(n, V, 1);
-        int k = 0;
+        turn_rows(s, x, v[0]);
+        const double norm = rb_gmres_begin(&g);
+        double left = norm;
 
-        if (norm == 0.0) /* and so is x */
-            continue;
-        y[0] = norm;
-        cblas_dscal(n, 1.0 / norm, V, 1);
-        for (; k < MOST && fabs(y[k]) > TOLERANCE * norm; k++) {
-            /* The next basis vector: A D^-1 v, orthogonal to those before. */
-            double *v = V + (size_t)k * size, *next = v + size,
-                   *column = R + (size_t)k * (MOST + 1);
-            for (size_t i = 0; i < size; i++)
-                next[i] = v[i] / s->A[(i + (size_t)s->offset) % size + i * (size_t)s->ld];
+        /* The next vector: A D^-1 v. */
+        while (left > TOLERANCE * norm && g.used < MOST) {
+            double *next = v[g.used + 1];
+            divide_by_diagonal(s, v[g.used], next);
             cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, s->A, s->ld, next, 1, 0.0, product,
                         1);
             turn_rows(s, product, next);
-            for (int j = 0; j <= k; j++) {
-                column[j] = cblas_ddot(n, V + (size_t)j * size, 1, next, 1);
-                cblas_daxpy(n, -column[j], V + (size_t)j * size, 1, next, 1);
-            }
-            const double below = cblas_dnrm2(n, next, 1);
-            cblas_dscal(n, below > 0.0 ? 1.0 / below : 0.0, next, 1);
-            /* Hessenberg's matrix to a triangle by rotations; y: the right-hand side, whose last
-             * entry is what is left. */
-            for (int j = 0; j < k; j++)
-                cblas_drot(1, column + j, 1, column + j + 1, 1, cosine[j], sine[j]);
-            const double length = hypot(column[k], below);
-            cosine[k] = column[k] / length;
-            sine[k] = below / length;
-            column[k] = length;
-            y[k + 1] = -sine[k] * y[k];
-            y[k] *= cosine[k];
+            left = rb_gmres_step(&g);
         }
-        if (!(fabs(y[k]) <= TOLERANCE * norm)) {
+        if (!(left <= TOLERANCE * norm))
             status = RB_MAXITER;
-            break;
-        }
-        cblas_dtrsv(CblasColMajor, CblasUpper, CblasNoTrans, CblasNonUnit, k, R, MOST + 1, y, 1);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, k, 1.0, V, n, y, 1, 0.0, product, 1);
-        for (size_t i = 0; i < size; i++)
-            x[i] = product[i] / s->A[(i + (size_t)s->offset) % size + i * (size_t)s->ld];
+        rb_gmres_combine(&g, product);
+        divide_by_diagonal(s, product, x);
     }
-    free(V);
-    free(R);
-    free(product);
+    free(vectors);
+    free(g.small);
     return status;
 }

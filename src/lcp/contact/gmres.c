@@ -2,6 +2,7 @@
  * known by products: unknowns inside, and delta and xi at the border.  The preconditioner
  * of all is P = [A~ B; C 0], A~ that of the inner unknowns. */
 #include "lcp/contact/gmres.h"
+#include "base/gmres.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -76,12 +77,6 @@ static void precondition(const solver *s, const double *b, double *x)
 
 /* ---- Cycles ------------------------------------------------------------------------ */
 
-typedef struct {
-    double H[BASIS][BASIS + 1]; /* columns of the Hessenberg matrix, rotated */
-    double c[BASIS], s[BASIS];  /* rotations */
-    double g[BASIS + 1];
-} least_squares;
-
 static double *basis_vector(const solver *s, int j)
 {
     double **v = &s->basis[j];
@@ -90,86 +85,36 @@ static double *basis_vector(const solver *s, int j)
     return *v;
 }
 
-/* Column j: orthogonalised, its length in the last row; 0 where the space is exhausted. */
-static int orthogonalise(const solver *s, int j, double *column)
-{
-    double *const *v = s->basis, *last = v[j + 1];
-    const int size = s->size;
-
-    for (int i = 0; i <= j; i++) {
-        column[i] = cblas_ddot(size, last, 1, v[i], 1);
-        cblas_daxpy(size, -column[i], v[i], 1, last, 1);
-    }
-    column[j + 1] = cblas_dnrm2(size, last, 1);
-    if (!(column[j + 1] > 0.0))
-        return 0;
-    cblas_dscal(size, 1.0 / column[j + 1], last, 1);
-    return 1;
-}
-
-/* Rotates column j into upper triangular form; returns the new residual. */
-static double rotate(least_squares *q, int j)
-{
-    double *column = q->H[j];
-
-    for (int i = 0; i < j; i++) {
-        const double a = column[i], b = column[i + 1];
-        column[i] = q->c[i] * a + q->s[i] * b;
-        column[i + 1] = -q->s[i] * a + q->c[i] * b;
-    }
-    const double length = hypot(column[j], column[j + 1]);
-    q->c[j] = column[j] / length;
-    q->s[j] = column[j + 1] / length;
-    column[j] = length;
-    q->g[j + 1] = -q->s[j] * q->g[j];
-    q->g[j] *= q->c[j];
-    return fabs(q->g[j + 1]);
-}
-
 /* One cycle from x, none where the residual is `enough`; *residual: of x before it;
- * *estimate: of x afterwards, but for rounding. */
+ * *estimate: of x afterwards, but for rounding.  small: as rb_gmres wants it. */
 static rb_status cycle(const solver *s, const double *b, double tolerance, double enough,
-                       least_squares *q, double *x, double *residual, double *estimate)
+                       double *small, double *x, double *residual, double *estimate)
 {
+    rb_gmres g = {.n = s->size, .most = BASIS, .v = s->basis, .small = small};
     double *v = basis_vector(s, 0);
-    int count = 0;
 
     if (!v)
         return RB_ENOMEM;
-    /* v_0 = b - A x, normalised. */
-    const int size = s->size;
-
     s->l->multiply(s->l->of, x, v);
-    for (int i = 0; i < size; i++)
+    for (int i = 0; i < s->size; i++)
         v[i] = b[i] - v[i];
-    const double length = cblas_dnrm2(size, v, 1);
-    if (length > 0.0)
-        cblas_dscal(size, 1.0 / length, v, 1);
-    q->g[0] = *residual = *estimate = length;
-    const int iterates = length > enough;
-    for (; iterates && *estimate > tolerance && count < BASIS; count++) {
-        double *next = basis_vector(s, count + 1);
+    *residual = *estimate = rb_gmres_begin(&g);
+    const int iterates = *residual > enough;
+    while (iterates && *estimate > tolerance && g.used < BASIS) {
+        double *next = basis_vector(s, g.used + 1);
         if (!next)
             return RB_ENOMEM;
         if (rb_interrupted())
             return RB_INTERRUPTED;
-        precondition(s, s->basis[count], s->work);
+        precondition(s, s->basis[g.used], s->work);
         s->l->multiply(s->l->of, s->work, next);
-        const int goes_on = orthogonalise(s, count, q->H[count]);
-        *estimate = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
+        *estimate = rb_gmres_step(&g);
     }
-    if (count > 0) {
+    if (g.used > 0) {
         /* x += P^-1 V y; the vector behind the basis is scratch. */
-        double *sum = s->basis[count];
+        double *sum = s->basis[g.used];
 
-        for (int i = count - 1; i >= 0; i--) {
-            for (int l = i + 1; l < count; l++)
-                q->g[i] -= q->H[l][i] * q->g[l];
-            q->g[i] /= q->H[i][i];
-        }
-        memset(sum, 0, (size_t)s->size * sizeof *sum);
-        for (int i = 0; i < count; i++)
-            cblas_daxpy(s->size, q->g[i], s->basis[i], 1, sum, 1);
+        rb_gmres_combine(&g, sum);
         precondition(s, sum, s->work);
         cblas_daxpy(s->size, 1.0, s->work, 1, x, 1);
     }
@@ -180,7 +125,7 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scr
                            const double *b, double *x)
 {
     solver s;
-    least_squares *q = malloc(sizeof *q);
+    double *small = rb_alloc(RB_GMRES_SMALL(BASIS), 1);
     rb_status status = make_solver(linear, scratch, &s);
     const double rounding = 2.0 * DBL_EPSILON * cblas_dnrm2(s.size, b, 1);
     const double tolerance = fmax(TOLERANCE, rounding);
@@ -188,10 +133,10 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scr
     const double floor = fmax(tolerance, DBL_EPSILON * s.size * sqrt(s.size));
     double enough = tolerance, before = INFINITY, residual = INFINITY, estimate = INFINITY;
 
-    if (!q)
+    if (!small)
         status = RB_ENOMEM;
     for (int k = 0; k < CYCLES && status == RB_OK; k++) {
-        status = cycle(&s, b, tolerance, enough, q, x, &residual, &estimate);
+        status = cycle(&s, b, tolerance, enough, small, x, &residual, &estimate);
         if (!(residual > enough) || residual > 0.1 * before)
             break;
         /* more than the estimate is rounding, which no cycle lessens */
@@ -200,7 +145,7 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scr
     }
     for (int k = 0; k < BORDERS; k++)
         free(s.image[k]);
-    free(q);
+    free(small);
     return status;
 }
 
