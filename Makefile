@@ -454,7 +454,7 @@ WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
 WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))
 WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)
 # what reads words, writes tables and calls the kernels is small instead of fast: moves take as long
-WASM_SMALL = base/io program/api rolling/case rolling/study rolling/history rolling/solve rolling/stress rolling/results rolling/notes analysis/sensitivity lcp/proof
+WASM_SMALL = base/io bem/mesh program/api rolling rolling/body rolling/case rolling/study rolling/history rolling/solve rolling/stress rolling/results rolling/notes analysis/sensitivity lcp/proof
 $(PAGE)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  WASM $<"
