@@ -455,7 +455,7 @@ WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildc
 WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)
 # what reads words, writes tables and calls the kernels is small instead of fast: moves take as long
 WASM_SMALL = base/io bem/mesh program/api rolling rolling/body rolling/case rolling/study rolling/history rolling/solve rolling/stress rolling/results rolling/notes analysis/sensitivity lcp/proof
-$(PAGE)/%.o: %.c
+$(PAGE)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	@echo "  WASM $<"
 	$(Q)$(WASM_CC) $(WASM_FLAGS) $(if $(filter $(WASM_SMALL:%=src/%/),$(<D)/),-Oz) -MMD -MP -c -o $@ $<
