@@ -137,7 +137,7 @@ check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/cours
 # what make test leaves to the next turns: of the programs whose tests take turns the rows of so many more, and
 # the whole of those of which make test runs one smoke test
 REST ?= 7
-IN_TURNS = $(patsubst tests/%.c,$(B)/tests/%,$(shell grep -lE '\bis_in_turn\(|\bIN_TURN\(|\brun_pages?\(' tests/test_*.c)) \
+IN_TURNS = $(patsubst tests/%.c,$(B)/tests/%,$(shell grep -lwE 'is_in_turn|IN_TURN|run_pages?' tests/test_*.c)) \
     tests/page tests/site tests/python tests/install tests/release tests/formulas tests/figures $(wildcard tests/journeys/*)
 test-rest: all page-where-possible $(if $(shell command -v gnuplot),$(B)/course/.drawn) $(TESTS) $(B)/packings $(B)/bench/bench_large
 	@turn=$${ROLLBEM_TEST_TURN:-$$(date +%-j)}; ROLLBEM_TEST_TURN=$$((turn + 1)) ROLLBEM_TEST_TURNS=$(REST) B=$(B) \
