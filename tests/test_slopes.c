@@ -399,7 +399,7 @@ TEST(single_cases_have_derivatives)
         /* within the step the power of an element beside stick changes its sign */
         {{"support arc arc 71 radius 14.9 young 171800 poisson 0.3 mu 0.132 speed 1000 "
           "conductivity 36.2 heat-capacity 10 formulation steady mesh fitted approach 0.00186 "
-          "creep -6.5e-6 contact-elements 39 outer-elements 100"}},
+          "creep -6.5e-6 contact-elements 39 outer-elements 80"}},
         /* a slip beside that at which memory has a kink */
         {{"support halfplane radius 45 young 1.1 poisson -0.3 young-b 0.83 poisson-b 0.45 "
           "layer-thickness-b 1.6 base-young-b 9.3 datum-b 16 mu 0.039 speed 1000 friction-law "
