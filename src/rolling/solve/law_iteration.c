@@ -96,8 +96,9 @@ double rb_rolling_law_kept(const rb_rolling_model *model, int i)
     const rb_rolling_friction *f = &model->rc->friction;
     const int next = i + 1 < model->state.n && model->state.zone[i + 1] != RB_ZONE_SEPARATED &&
                      model->rc->slip_operator == RB_SLIP_SECOND;
-    const double slid = next ? 0.5 * (slid_distance(model, i) + slid_distance(model, i + 1))
-                             : slid_distance(model, i),
+    const double *c = model->problem.e_T, own = slid_distance(model, i);
+    /* with the mean velocity on the way from the next midpoint */
+    const double slid = next ? 0.5 * (own + slid_distance(model, i + 1) / c[i + 1] * c[i]) : own,
                  least = model->rc->formulation == RB_STATIC
                              ? slid
                              : f->memory_slip * model->problem.e_T[i] / model->rc->speed;
