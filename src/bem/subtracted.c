@@ -219,7 +219,7 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const
            *values = rb_alloc(2 * BLOCK, (size_t)units + (R ? (size_t)loads : 0)),
            *combined = R && values ? values + 2 * BLOCK * (size_t)units : values;
     const int threads = rb_blas_threads(1);
-    rb_assembly assembly;
+    rb_assembly assembly = {0};
     rb_status status =
         columns && values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
@@ -253,8 +253,7 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const
         }
         rb_points_free(&at.midpoints);
     }
-    if (status == RB_OK)
-        rb_assembly_end(&assembly);
+    rb_assembly_end(&assembly); /* also where only the points of a block found no memory */
     rb_blas_threads(threads);
     free(columns);
     free(values);
