@@ -181,38 +181,12 @@ void rb_subtracted_free(rb_subtracted *p)
     free(p);
 }
 
-/* Element k: its columns of [G, -H] for the values that are left over, from `row` on. */
-static void columns_of_element(const rb_subtracted *p, const rb_assembly *assembly, int k, int row,
-                               double *columns)
-{
-    double *out[4] = {NULL, NULL, NULL, NULL};
-
-    for (int d = 0; d < 2; d++) {
-        const int held = p->s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
-        out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)p->s->ld;
-    }
-    rb_assembly_columns(assembly, k, 1.0, out);
-}
-
-/* What the strip on contact element c leaves over on the elements of a block; -: of H. */
-static void values_of_strip(const rb_subtracted *p, const seen_from *at, int c, double *values)
-{
-    double value[2][2 * BLOCK];
-
-    left_over(p, at, c, value);
-    for (int l = 0; l < 2; l++)
-        for (int row = 0; row < 2 * at->n; row++) {
-            const int dof = 2 * at->element[row / 2] + row % 2,
-                      held = p->s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
-            values[row + (size_t)(2 * c + l) * 2 * BLOCK] = held ? -value[l][row] : value[l][row];
-        }
-}
-
 static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const double *R,
                                         double *X)
 {
     const rb_bem_system *s = p->s;
     const int units = 2 * s->mesh.contact_n;
+    const rb_bem_condition *condition = s->mesh.condition;
     /* Of a block of elements: columns of [G, -H] for the values that are left over (ld x 2
      * BLOCK), and these (2 BLOCK x units, of loads that are combined x loads). */
     double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
@@ -223,23 +197,36 @@ static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const
     rb_status status =
         columns && values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
+    /* X += [G, -H] times the boundary values left over, block by block. All in one parallel region:
+     * threads that wait for a product by one of them would spin. */
     for (int from = 0; status == RB_OK && from < s->mesh.n; from += BLOCK) {
         const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
         seen_from at;
         status = see_from(&s->mesh, NULL, from, to - from, &at);
         if (status != RB_OK)
             break;
-            /* X += [G, -H] times the boundary values left over. All in one parallel region:
-             * threads that wait for a product by one of them would spin. */
 #pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) * s->mesh.n >     \
                                                              rb_pairs_for_threads / 32)
         {
 #pragma omp for schedule(static)
-            for (int k = from; k < to; k++)
-                columns_of_element(p, &assembly, k, 2 * (k - from), columns);
+            for (int k = from; k < to; k++) {
+                double *out[4] = {NULL, NULL, NULL, NULL};
+                for (int d = 0; d < 2; d++)
+                    out[condition[2 * k + d] == RB_BEM_DISPLACEMENT ? d : 2 + d] =
+                        columns + (size_t)(2 * (k - from) + d) * (size_t)s->ld;
+                rb_assembly_columns(&assembly, k, 1.0, out);
+            }
 #pragma omp for schedule(static)
-            for (int c = 0; c < s->mesh.contact_n; c++)
-                values_of_strip(p, &at, c, values);
+            for (int c = 0; c < s->mesh.contact_n; c++) {
+                double value[2][2 * BLOCK];
+                left_over(p, &at, c, value);
+                for (int l = 0; l < 2; l++)
+                    for (int row = 0; row < 2 * at.n; row++) { /* -: of H */
+                        const int held = condition[2 * from + row] == RB_BEM_DISPLACEMENT;
+                        values[row + (size_t)(2 * c + l) * 2 * BLOCK] =
+                            held ? -value[l][row] : value[l][row];
+                    }
+            }
 #pragma omp for schedule(static)
             for (int l = 0; l < (R ? loads : 0); l++)
                 cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * (to - from), units, 1.0, values,

@@ -49,7 +49,8 @@ rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, 
 rb_status rb_bem_system_factor(rb_bem_system *system, rb_message *why);
 
 /* Solutions of A X = B in place, leading dimension ld, by GMRES, of a matrix that is assembled;
- * rows as in rb_bem_system_solve_columns.  RB_ENOMEM; RB_MAXITER: X is as it was. */
+ * rows as in rb_bem_system_solve_columns.  RB_ENOMEM; RB_MAXITER: not of all
+ * columns, the others are as they were. */
 rb_status rb_bem_system_iterate(const rb_bem_system *s, int columns, double *X);
 
 /* As rb_bem_system_create, the matrix dense or hierarchical at any size: to compare. */

@@ -57,8 +57,10 @@ rb_status rb_bem_system_iterate(const rb_bem_system *s, int columns, double *X)
             turn_rows(s, product, next);
             left = rb_gmres_step(&g);
         }
-        if (!(left <= TOLERANCE * norm))
+        if (!(left <= TOLERANCE * norm)) {
             status = RB_MAXITER;
+            break;
+        }
         rb_gmres_combine(&g, product);
         divide_by_diagonal(s, product, x);
     }

@@ -94,6 +94,23 @@ void rb_crack_grade(const rb_crack_path *path, int n, double *s)
     }
 }
 
+void rb_crack_place(const rb_crack_path *path, int n, const double *s, rb_crack_element *element)
+{
+    double before = 0.0; /* s of the beginning of the piece */
+
+    for (int k = 0, piece = 0; k < n; k++) {
+        double complex along = place(path, piece + 1) - place(path, piece);
+        if (0.5 * (s[k] + s[k + 1]) > before + cabs(along)) {
+            before += cabs(along);
+            piece++;
+            along = place(path, piece + 1) - place(path, piece);
+        }
+        const double complex t = along / cabs(along);
+        element[k] = (rb_crack_element){place(path, piece) + (s[k] - before) * t, t,
+                                        s[k + 1] - s[k], s[k], piece};
+    }
+}
+
 /* ---- Kernels (C2) ------------------------------------------------------------------ */
 
 static inline double complex inverse(double complex c)
@@ -331,20 +348,7 @@ static rb_status assemble(const rb_crack_shape *shape, const double *s, rb_crack
     c->F = rb_arena_doubles(&c->memory, 2 * (size_t)c->n, 2 * (size_t)c->n);
     if (c->memory.failed)
         return RB_ENOMEM;
-    const rb_crack_path *path = &c->shape.path;
-    double before = 0.0; /* s of the beginning of the piece */
-
-    for (int k = 0, piece = 0; k < c->shape.elements; k++) {
-        double complex along = place(path, piece + 1) - place(path, piece);
-        if (0.5 * (s[k] + s[k + 1]) > before + cabs(along)) {
-            before += cabs(along);
-            piece++;
-            along = place(path, piece + 1) - place(path, piece);
-        }
-        const double complex t = along / cabs(along);
-        c->element[k] = (rb_crack_element){place(path, piece) + (s[k] - before) * t, t,
-                                           s[k + 1] - s[k], s[k], piece};
-    }
+    rb_crack_place(&c->shape.path, c->shape.elements, s, c->element);
     for (int j = 0; j < c->n; j++) { /* at a kink: the mean direction of both sides */
         const int k = c->first + j;
         const double complex sum = c->element[k].t + c->element[GSL_MAX(k - 1, 0)].t;

@@ -120,29 +120,24 @@ static rb_status check_places(const rb_case_crack *l, double a, rb_message *why)
 rb_status rb_case_crack_check_elements(const rb_crack_path *path, int n, double a, rb_message *why)
 {
     static const double LONGEST = 2.0;
-    double *s = rb_alloc((size_t)n + 1, 1);
-    double worst = 0.0, before = 0.0;
-    int piece = 0;
+    double *s = rb_alloc((size_t)n + 1, 1), worst = 0.0, length = 0.0;
+    rb_crack_element *element = calloc((size_t)n, sizeof *element);
+    const int has_memory = s && element;
 
-    if (!s)
-        return rb_fail(why, RB_ENOMEM, "crack: out of memory for %d elements", n);
-    rb_crack_grade(path, n, s);
-    for (int j = 0; j < n; j++) {
-        double piece_length =
-            hypot(path->x[piece + 1] - path->x[piece], path->y[piece + 1] - path->y[piece]);
-        if (piece + 1 < path->pieces && s[j] >= before + piece_length * (1.0 - 1e-12)) {
-            before = s[j];
-            piece++;
-            piece_length =
-                hypot(path->x[piece + 1] - path->x[piece], path->y[piece + 1] - path->y[piece]);
-        }
-        const double slope = (path->y[piece] - path->y[piece + 1]) / piece_length,
-                     from = -path->y[piece] + (s[j] - before) * slope,
-                     to = from + (s[j + 1] - s[j]) * slope;
-        worst = fmax(worst, (s[j + 1] - s[j]) / fmax(a, fmin(from, to)));
+    if (has_memory) {
+        rb_crack_grade(path, n, s);
+        rb_crack_place(path, n, s, element);
+        length = s[n];
     }
-    const double length = s[n];
+    for (int j = 0; j < n && has_memory; j++) {
+        const rb_crack_element *e = &element[j];
+        const double from = -cimag(e->from), to = from - e->length * cimag(e->t);
+        worst = fmax(worst, e->length / fmax(a, fmin(from, to)));
+    }
     free(s);
+    free(element);
+    if (!has_memory)
+        return rb_fail(why, RB_ENOMEM, "crack: out of memory for %d elements", n);
     if (worst > LONGEST)
         return rb_refuse(why, "crack-elements,grow-to,crack-length",
                          "%d elements along a crack of %g half-widths are up to %g times as long "

@@ -19,6 +19,8 @@ typedef struct {
  * graded towards both ends of the crack.  phi is stretched so that each kink falls on an end.  n:
  * at least two a piece. */
 void rb_crack_grade(const rb_crack_path *path, int n, double *s);
+/* The n elements between these ends. */
+void rb_crack_place(const rb_crack_path *path, int n, const double *s, rb_crack_element *element);
 
 /* A place where the stress is wanted, its weight times the length it stands for, and the
  * two hats there. */

@@ -199,21 +199,21 @@ static double step_at(const rb_rolling_model *model, int of_friction, int i, dou
                                : -away * fmin(step, size / PLACES_AHEAD);
 }
 
-/* Derivative of the coefficients that the law gives with respect to the slip of element `at`, or to
- * its friction, and to those of every apart-th element as well; 0: of it alone.  One that sticks
- * begins to slip against its friction. */
-static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
-                                   int of_friction, double step, int at, int apart,
-                                   const int *is_asked, double *derivative, rb_message *why)
+/* What the coefficients of the law move by (n) where the slips, or the frictions, of element `at`
+ * and of every apart-th one from there on move by their steps: a derivative times the step.  Of
+ * those with is_asked (n; NULL: all).  One that sticks begins to slip against its friction. */
+static rb_status move_law(const rb_rolling_model *model, rb_rolling_model *v, int of_friction,
+                          double step, int at, int apart, const int *is_asked, double *moved,
+                          rb_message *why)
 {
     const rb_sensitivity_stencil *places = &rb_sensitivity_ahead;
     const int n = model->problem.n;
     double *x = of_friction ? v->state.q : v->state.lambda;
     rb_status s = RB_OK;
 
-    memset(derivative, 0, (size_t)n * sizeof *derivative);
+    memset(moved, 0, (size_t)n * sizeof *moved);
     for (int k = 0; k < places->n && s == RB_OK; k++) {
-        for (int i = at; i<n; i += apart> 0 ? apart : n)
+        for (int i = at; i < n; i += apart)
             if (!is_asked || is_asked[i])
                 x[i] += step_at(model, of_friction, i, step) * places->place[k];
         s = rb_rolling_model_friction(v, why);
@@ -221,8 +221,7 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
         memcpy(v->state.q, model->state.q, (size_t)n * sizeof *x);
         for (int i = 0; i < n; i++) {
             v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
-            derivative[i] += places->weight[k] * v->problem.bound[i] /
-                             (apart > 0 ? 1.0 : step_at(model, of_friction, at, step));
+            moved[i] += places->weight[k] * v->problem.bound[i];
         }
     }
     return s;
@@ -245,7 +244,7 @@ static rb_status fill_neighbours(rb_sensitivity *s, rb_rolling_model *v, double 
         is_asked[i] = zone[i] == RB_ZONE_SEPARATED ? i < last && zone[i + 1] != RB_ZONE_SEPARATED
                                                    : (zone[i] == RB_ZONE_STICK) == sticks;
     for (int first = 0; first < APART && status == RB_OK; first++) {
-        status = differentiate_law(model, v, 0, step, first, APART, is_asked, moved, why);
+        status = move_law(model, v, 0, step, first, APART, is_asked, moved, why);
         for (int i = 0; i <= last && status == RB_OK; i++) {
             const int j = i - 1 + (first - i + 1 + APART * s->n) % APART;
             if (zone[i] == RB_ZONE_SEPARATED || j < 0 || j > last || !is_asked[j])
@@ -280,6 +279,18 @@ static rb_status fill_by_creepage(rb_sensitivity *s, rb_rolling_model *v, rb_mes
     return status;
 }
 
+/* Derivative of all coefficients with respect to the slip, or to the friction, of one element. */
+static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
+                                   int of_friction, double step, int at, double *derivative,
+                                   rb_message *why)
+{
+    const int n = model->problem.n;
+    const rb_status s = move_law(model, v, of_friction, step, at, n, NULL, derivative, why);
+
+    cblas_dscal(n, 1.0 / step_at(model, of_friction, at, step), derivative, 1);
+    return s;
+}
+
 /* Where friction remembers in steps, or heats, every element asks all others. */
 static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, int *is_asked,
                           rb_message *why)
@@ -306,13 +317,11 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
         const int *zone = model->state.zone, heats = s->law_force != NULL;
         if (zone[j] > RB_ZONE_STICK ||
             (heats && zone[j] == RB_ZONE_SEPARATED && j + 1 < n && zone[j + 1] != zone[j]))
-            status =
-                differentiate_law(model, v, 0, slip, (int)j, 0, NULL, s->law_slip + j * n, why);
+            status = differentiate_law(model, v, 0, slip, (int)j, s->law_slip + j * n, why);
         if (status == RB_OK && heats &&
             (zone[j] > RB_ZONE_STICK ||
              (zone[j] == RB_ZONE_STICK && j > 0 && zone[j - 1] != zone[j])))
-            status =
-                differentiate_law(model, v, 1, stress, (int)j, 0, NULL, s->law_force + j * n, why);
+            status = differentiate_law(model, v, 1, stress, (int)j, s->law_force + j * n, why);
     }
     return status;
 }

@@ -72,19 +72,6 @@ typedef struct {
     double *gap, *lambda, *yielded;
 } motion;
 
-/* What a force on a free axle cannot be known closer than: the pressures are known to some units of
- * rounding, and their moments nearly cancel.  Next to mu P it is more than a tolerance where mu is
- * less than about 1e-7. */
-static double rounding_of_moment(const rb_contact_problem *problem, const rb_contact_state *state)
-{
-    enum { UNITS = 4 };
-    double sum = 0.0;
-
-    for (int i = 0; i < problem->n && problem->axle > 0.0; i++)
-        sum += fabs(problem->moment_N[i] * state->p[i]);
-    return UNITS * DBL_EPSILON * problem->axle * sum;
-}
-
 rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contact_state *state,
                               rb_contact_violation *v)
 {
@@ -107,8 +94,16 @@ rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contac
         const double most = rb_contact_capacity(problem, state);
         const double wanted = problem->force + problem->force_ratio * most -
                               problem->axle * rb_contact_moment(problem, state);
-        const double off = fabs(rb_contact_force(problem, state) - wanted);
-        worst = fmax(worst, fmax(0.0, off - rounding_of_moment(problem, state)) / most);
+        /* The force on a free axle cannot be known closer than to some units of rounding of the
+         * pressures, whose moments nearly cancel.  Next to mu P this is more than a tolerance where
+         * mu is less than about 1e-7. */
+        enum { UNITS = 4 };
+        double moments = 0.0;
+        for (int i = 0; i < n && problem->axle > 0.0; i++)
+            moments += fabs(problem->moment_N[i] * state->p[i]);
+        const double off = fabs(rb_contact_force(problem, state) - wanted) -
+                           UNITS * DBL_EPSILON * problem->axle * moments;
+        worst = fmax(worst, fmax(0.0, off) / most);
     }
     v->scaled = worst;
     for (int i = 0; i < n; i++) {

@@ -39,10 +39,13 @@ static double domination(const rb_sparse *M, const double *own, const double *un
         next[i] = 0.0;
     for (int j = 0; j < M->cols; j++) {
         const double one = unit[j];
+        const int end = M->p[j + 1];
         int k = M->p[j]; /* rows increase: those before j, then those behind */
-        for (; k < M->p[j + 1] && M->i[k] < j; k++)
+        for (; k < end && M->i[k] < j; k++)
             next[M->i[k]] += fabs(M->x[k]) * one;
-        for (k += k < M->p[j + 1] && M->i[k] == j; k < M->p[j + 1]; k++)
+        if (k < end && M->i[k] == j)
+            k++;
+        for (; k < end; k++)
             next[M->i[k]] += fabs(M->x[k]) * one;
     }
     return towards_units(M->rows, own, unit, next);

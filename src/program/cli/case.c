@@ -211,15 +211,6 @@ static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, ch
     return code == CLI_CONTINUE && run->command->prepare ? run->command->prepare(run) : code;
 }
 
-static cli_exit check_needs(const cli_case_run *run)
-{
-    const cli_case_need *need = run->command->needs;
-    for (; need && need->option; need++)
-        if (rb_option_given(&run->set, need->option) && !rb_option_given(&run->set, need->with))
-            return cli_case_refuse(run->words, need->option, "only with --%s", need->with);
-    return CLI_CONTINUE;
-}
-
 /* given, plain: CLI_COMMAND_OPTIONS_MAX zeros each, which the run borrows. */
 static cli_case_run run_of(const cli_case_command *command, void *own, int *given, int *plain,
                            rb_case *words)
@@ -274,8 +265,10 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     }
     if (code == CLI_CONTINUE && command->check)
         code = command->check(&run);
-    if (code == CLI_CONTINUE)
-        code = check_needs(&run);
+    for (const cli_case_need *need = command->needs; code == CLI_CONTINUE && need && need->option;
+         need++)
+        if (rb_option_given(&run.set, need->option) && !rb_option_given(&run.set, need->with))
+            code = cli_case_refuse(run.words, need->option, "only with --%s", need->with);
     if (code == CLI_CONTINUE) {
         rb_message why = {.text = ""};
         if (!run.o.quiet)

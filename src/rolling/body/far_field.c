@@ -65,6 +65,15 @@ static int choose_points(const rb_bem_flexibility *f, int chosen[POINTS + 2])
     return n;
 }
 
+/* r (2n): the pressures of the model and its frictions. */
+static void copy_tractions(const rb_rolling_model *model, double *r)
+{
+    const size_t n = (size_t)model->bodies.f.n;
+
+    memcpy(r, model->state.p, n * sizeof *r);
+    memcpy(r + n, model->state.q, n * sizeof *r);
+}
+
 /* D (2m x loads): what the boundaries of the model displace more under loads r (2n x loads) than
  * half-planes do, from its matrix. */
 static rb_status displaced_more(const rb_rolling_model *model, int loads, const double *r,
@@ -82,44 +91,6 @@ static rb_status displaced_more(const rb_rolling_model *model, int loads, const 
     }
     rb_rolling_bodies_free(&near);
     return s;
-}
-
-/* D (2m): the same, and what they displace without loads, under the tractions r (2n) alone, from
- * boundaries that are solved for these on the mesh of the model. */
-static rb_status displaced_by_boundaries(const rb_rolling_model *model, const double *r, double *D,
-                                         rb_message *why)
-{
-    const rb_rolling_case *rc = model->rc;
-    const int n = model->mesh.n, rows = 2 * (n + 1);
-    rb_arena scratch = {0};
-    double *own_r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1),
-           *w = rb_arena_doubles(&scratch, (size_t)rows, 1),
-           *w0 = rb_arena_doubles(&scratch, (size_t)rows, 1);
-    rb_status s = scratch.failed ? rb_fail(why, RB_ENOMEM, "out of memory for a far field") : RB_OK;
-
-    for (int b = 0; b < 1 + rc->elastic_b && s == RB_OK; b++) {
-        const rb_rolling_body *body = b ? &rc->b : &rc->a;
-        const double along = b ? -1.0 : 1.0; /* B is computed as the mirror image (4.5) */
-        rb_rolling_body_flexibility near = {.system = NULL};
-        rb_bem_system *system = NULL;
-        if (!has_far_field(rc, body))
-            continue;
-        for (int k = 0; k < 2 * n; k++)
-            own_r[k] = k < n ? r[k] : along * r[k];
-        s = rb_rolling_boundary_system(model, b, 1, &system, why);
-        if (s == RB_OK)
-            s = rb_bem_displacement_subtracted(system, rc->normals, 1, own_r, w, w0, why);
-        if (s == RB_OK)
-            s = rb_rolling_kind_of(body)->near(rc, &model->plan, body, &model->mesh, &near, why);
-        if (s == RB_OK)
-            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, -1.0,
-                        rb_bem_flexibility_stored(&near.f), rows, own_r, 1, 1.0, w, 1);
-        for (int i = 0; i < rows && s == RB_OK; i++)
-            D[i] += (i > n ? along : 1.0) * (w[i] + w0[i]);
-        rb_bem_flexibility_free(&near.f);
-        rb_bem_system_free(system);
-    }
-    return rb_arena_done(&scratch, s);
 }
 
 /* Lagrange's polynomial through the four points around x: where they begin, and their weights. */
@@ -162,29 +133,27 @@ static void add_displacement(const rb_rolling_far_field *far, const rb_bem_flexi
     }
 }
 
-/* Most of what the places of f (x, m of them) are moved more (w), as far boundaries are: a line,
- * which goes to the points of the far field. */
-static void move_line(const rb_bem_flexibility *f, double *w, rb_rolling_far_field *far, double *w0)
+/* The least-squares line through w over x, weighted by the lengths of the elements of f: its mean
+ * and its slope at the middle of the contact. */
+static void least_squares_line(const rb_bem_flexibility *f, const double *w, double *middle,
+                               double *mean, double *slope)
 {
-    double length = 0.0, first = 0.0, second = 0.0, mean = 0.0, slope = 0.0;
+    double length = 0.0, first = 0.0, second = 0.0;
 
+    *mean = *slope = 0.0;
     for (int i = 0; i < f->n; i++) {
         length += f->h[i];
         first += f->h[i] * f->x[i];
-        mean += f->h[i] * w[i];
+        *mean += f->h[i] * w[i];
     }
-    const double middle = first / length;
-    mean /= length;
+    *middle = first / length;
+    *mean /= length;
     for (int i = 0; i < f->n; i++) {
-        const double x = f->x[i] - middle;
+        const double x = f->x[i] - *middle;
         second += f->h[i] * x * x;
-        slope += f->h[i] * x * w[i];
+        *slope += f->h[i] * x * w[i];
     }
-    slope /= second;
-    for (int i = 0; i < f->m; i++)
-        w[i] -= mean + slope * (f->x[i] - middle);
-    for (int k = 0; k < far->n; k++)
-        w0[k] += mean + slope * (far->x[k] - middle);
+    *slope /= second;
 }
 
 /* From now on the field moves elements like those of f under tractions r (2n) by D (2m). */
@@ -200,8 +169,16 @@ static rb_status match(rb_rolling_far_field *far, const rb_bem_flexibility *f, c
     add_displacement(far, f, r, far->more);
     for (size_t i = 0; i < rows; i++)
         far->more[i] = D[i] - far->more[i];
-    for (int a = 0; a < 2; a++)
-        move_line(f, far->more + a * f->m, far, far->w0 + a * far->n);
+    /* Most of it is a line, as far boundaries move: it goes to the points of the far field, and
+     * serves for other meshes, too. */
+    for (int a = 0; a < 2; a++) {
+        double *w = far->more + a * f->m, *w0 = far->w0 + a * far->n, middle, mean, slope;
+        least_squares_line(f, w, &middle, &mean, &slope);
+        for (int i = 0; i < f->m; i++)
+            w[i] -= mean + slope * (f->x[i] - middle);
+        for (int k = 0; k < far->n; k++)
+            w0[k] += mean + slope * (far->x[k] - middle);
+    }
     return RB_OK;
 }
 
@@ -229,10 +206,8 @@ rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int matched
         r[(size_t)j * tractions + (size_t)(j / n * f->n + element)] = 1.0 / f->h[element];
     }
     double *own_r = r + 2 * (size_t)n * tractions, *own_D = D + 2 * (size_t)n * rows;
-    if (matched && s == RB_OK) {
-        memcpy(own_r, model->state.p, (size_t)f->n * sizeof *r);
-        memcpy(own_r + f->n, model->state.q, (size_t)f->n * sizeof *r);
-    }
+    if (matched && s == RB_OK)
+        copy_tractions(model, own_r);
     if (s == RB_OK)
         s = displaced_more(model, loads, r, D, why);
     for (int i = 0; i < 2 * n && s == RB_OK; i++) {
@@ -258,20 +233,47 @@ rb_status rb_rolling_far_field_create(const rb_rolling_model *model, int matched
 rb_status rb_rolling_far_field_match(const rb_rolling_model *model, rb_rolling_far_field *far,
                                      rb_message *why)
 {
+    const rb_rolling_case *rc = model->rc;
     const rb_bem_flexibility *f = &model->bodies.f;
-    double *r = rb_alloc((size_t)f->n, 2), *D = rb_alloc((size_t)f->m, 2);
-    rb_status s = r && D ? RB_OK : RB_ENOMEM;
+    const int n = f->n, rows = 2 * f->m;
+    rb_arena scratch = {0};
+    double *r = rb_arena_doubles(&scratch, (size_t)n, 2),
+           *own_r = rb_arena_doubles(&scratch, (size_t)n, 2),
+           *D = rb_arena_doubles(&scratch, (size_t)rows, 1),
+           *w = rb_arena_doubles(&scratch, (size_t)rows, 1),
+           *w0 = rb_arena_doubles(&scratch, (size_t)rows, 1);
+    rb_status s = scratch.failed ? RB_ENOMEM : RB_OK;
 
-    if (s == RB_OK) {
-        memcpy(r, model->state.p, (size_t)f->n * sizeof *r);
-        memcpy(r + f->n, model->state.q, (size_t)f->n * sizeof *r);
-        s = displaced_by_boundaries(model, r, D, why);
+    if (s == RB_OK)
+        copy_tractions(model, r);
+    /* What the boundaries of each body displace more than half-planes do, and without loads. */
+    for (int b = 0; b < 1 + rc->elastic_b && s == RB_OK; b++) {
+        const rb_rolling_body *body = b ? &rc->b : &rc->a;
+        const double along = b ? -1.0 : 1.0; /* B is computed as the mirror image (4.5) */
+        rb_rolling_body_flexibility near = {.system = NULL};
+        rb_bem_system *system = NULL;
+        if (!has_far_field(rc, body))
+            continue;
+        for (int k = 0; k < 2 * n; k++)
+            own_r[k] = k < n ? r[k] : along * r[k];
+        s = rb_rolling_boundary_system(model, b, 1, &system, why);
+        if (s == RB_OK)
+            s = rb_bem_displacement_subtracted(system, rc->normals, 1, own_r, w, w0, why);
+        if (s == RB_OK)
+            s = rb_rolling_kind_of(body)->near(rc, &model->plan, body, &model->mesh, &near, why);
+        if (s == RB_OK)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, -1.0,
+                        rb_bem_flexibility_stored(&near.f), rows, own_r, 1, 1.0, w, 1);
+        for (int i = 0; i < rows && s == RB_OK; i++)
+            D[i] += (i > n ? along : 1.0) * (w[i] + w0[i]);
+        rb_bem_flexibility_free(&near.f);
+        rb_bem_system_free(system);
     }
     if (s == RB_OK)
         s = match(far, f, r, D);
-    free(r);
-    free(D);
-    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for a far field") : s;
+    if (s == RB_ENOMEM)
+        rb_fail(why, s, "out of memory for a far field");
+    return rb_arena_done(&scratch, s);
 }
 
 int rb_rolling_far_field_matches(const rb_rolling_far_field *far, int elements)
