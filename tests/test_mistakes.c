@@ -134,6 +134,9 @@ TEST(own_options_in_a_file_are_refused_with_their_line)
         {"sweep", "vary-1 = mou 1 2\n", "own.ini:5: vary-1: 'mou' is not an option"},
         {"sweep", "vary-1 = mu 0.1 0.2\nresults = pressure\n", "own.ini:6: results: no result"},
         {"sweep", "vary-1 = mu 0.1 0.2\nshow = stick\n", "own.ini:6: show: there is no picture"},
+        /* options of a command that stand behind those of its case, in their group */
+        {"crack", "[output]\nstates = yes\n", "own.ini:6: key 'states' belongs to section [crack]"},
+        {"crack", "[crack]\nstates = yes\n", "own.ini:6: states: with --json"},
     };
     write_file("creep.tsv", "creep\tforce\n0.001\t-3\n0.002\t-5\n");
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {

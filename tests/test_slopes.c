@@ -208,12 +208,12 @@ TEST(compressed_boundaries_have_derivatives)
                              "formulation steady mesh uniform creep-ratio 0.4 poisson 0.3"}};
     rb_message why = {.text = ""};
     differences d;
-    held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
     rb_case_number number[RB_CASE_NUMBERS_MAX];
     int n, poisson = 0;
 
     (void)state;
     IN_TURN(0, 4);
+    held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
     CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
     while (strcmp(number[poisson].name, "poisson") != 0)
         poisson++;

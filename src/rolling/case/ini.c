@@ -52,6 +52,20 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
     return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK : RB_EFORMAT;
 }
 
+/* The section of an option: that of the group that it stands in, which may have begun in the set
+ * before.  The case's own, the first one, begins with a group. */
+static const char *section_of(const ini_state *st, const rb_option_set *set, int i)
+{
+    while (set->options[i].kind != RB_OPTION_GROUP)
+        if (i > 0)
+            i--;
+        else if (set > st->sets)
+            i = (--set)->n - 1;
+        else
+            return "";
+    return set->options[i].name;
+}
+
 static rb_status set_key(const ini_state *st, const char *section, const char *name,
                          const char *value)
 {
@@ -71,7 +85,7 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
     if (!set)
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown key '%s'%s", st->path, st->line, name,
                        rb_guess_text(&guess, ""));
-    const char *wanted = rb_case_section(&set->options[i]);
+    const char *wanted = section_of(st, set, i);
     if (*section != '\0' && strcmp(section, wanted) != 0)
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' belongs to section [%s], not [%s]",
                        st->path, st->line, name, wanted, section);
