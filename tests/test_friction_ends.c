@@ -368,7 +368,7 @@ TEST(cones_that_are_none_are_refused)
         int size[2] = {all[k].size[0], all[k].size[1]};
         rb_friction_info info;
         const rb_friction_soclcp_problem p = {all[k].n, M, q, all[k].n ? 2 : 0, size};
-        CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+        CHECK_STATUS(rb_friction_solve_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
         if (!strstr(info.msg.text, all[k].words))
             fail_msg("row %zu: %s", k, info.msg.text);
     }
@@ -418,7 +418,7 @@ TEST(limits_hold_on_cones)
     rb_friction_info info;
     rb_friction_options opt = rb_friction_defaults();
     double x[3], y[3], again[3];
-    CHECK_OK(rb_friction_soclcp(&on_cones, NULL, x, y, NULL));
+    CHECK_OK(rb_friction_solve_soclcp(&on_cones, NULL, x, y, NULL));
     for (int i = 0; i < 3; i++) {
         double want = cone_q[i];
         for (int j = 0; j < 3; j++)
@@ -430,19 +430,19 @@ TEST(limits_hold_on_cones)
     CHECK_ABS(x[0] * y[0] + x[1] * y[1], 0.0, 1e-7, "orthogonal");
     CHECK_ABS(fmin(x[2], y[2]), 0.0, 1e-7, "half-line");
     opt.r0 = x;
-    CHECK_OK(rb_friction_soclcp(&on_cones, &opt, again, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&on_cones, &opt, again, y, &info));
     CHECK_MAX(info.iters, 2, "from the solution");
     opt.r0 = NULL;
     opt.max_iters = 1;
-    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_MAXITER);
+    CHECK_STATUS(rb_friction_solve_soclcp(&on_cones, &opt, again, y, &info), RB_MAXITER);
     opt.max_iters = 0;
     opt.seconds = 1e-9;
-    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_INTERRUPTED);
+    CHECK_STATUS(rb_friction_solve_soclcp(&on_cones, &opt, again, y, &info), RB_INTERRUPTED);
     opt.seconds = 60.0;
-    CHECK_OK(rb_friction_soclcp(&on_cones, &opt, again, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&on_cones, &opt, again, y, &info));
     const double zero[9] = {0.0}, up[3] = {1.0, 0.5, 1.0};
     const rb_friction_soclcp_problem flat = {3, zero, up, 2, cone_sizes};
-    CHECK_OK(rb_friction_soclcp(&flat, NULL, x, y, NULL)); /* x = 0 */
+    CHECK_OK(rb_friction_solve_soclcp(&flat, NULL, x, y, NULL)); /* x = 0 */
     CHECK_ABS(fmax(fabs(x[0]), fabs(x[2])), 0.0, 1e-6, "M = 0");
 }
 
@@ -574,7 +574,7 @@ static rb_status measure(void *context)
 static rb_status solve_on_cones(void *context)
 {
     double x[3], y[3];
-    return rb_friction_soclcp(context, NULL, x, y, NULL);
+    return rb_friction_solve_soclcp(context, NULL, x, y, NULL);
 }
 
 /* The problem is changed only where all succeeds, in the last run. */

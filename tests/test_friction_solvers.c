@@ -166,7 +166,7 @@ TEST(info_may_be_null)
     const double M[] = {2.0}, q[] = {-1.0};
     const int one[] = {1};
     const rb_friction_soclcp_problem cone = {1, M, q, 1, one};
-    CHECK_OK(rb_friction_soclcp(&cone, NULL, r, u, NULL));
+    CHECK_OK(rb_friction_solve_soclcp(&cone, NULL, r, u, NULL));
     CHECK_ABS(r[0], 0.5, 1e-7, "half a line");
     assert_non_null(rb_friction_status_text(RB_OK, 1e-8, NULL));
 }
@@ -210,10 +210,33 @@ TEST(cones_of_every_size)
     rb_friction_info info;
     opt.tol = 1e-12;
     CHECK_MAX(rb_friction_soclcp_error(&p, want, y), 1e-14, "planted");
-    CHECK_OK(rb_friction_soclcp(&p, &opt, x, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&p, &opt, x, y, &info));
     for (int i = 0; i < N; i++) {
         CHECK_ABS(x[i], want[i], 1e-9, "x[%d]", i);
         CHECK_ABS(y[i], planted[i], 1e-9, "y[%d]", i);
+    }
+}
+
+/* With M = I the solution is the projection of -q, in closed form (docs/friction.md). */
+TEST(the_closest_point_of_a_cone)
+{
+    const double M[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const int size[] = {3};
+    /* outside, inside, and inside the polar cone, whose closest point is the apex */
+    const double point[3][3] = {{0.5, 3.0, -4.0}, {6.0, 3.0, -4.0}, {-6.0, 3.0, -4.0}};
+    const double want[3][3] = {{2.75, 1.65, -2.2}, {6.0, 3.0, -4.0}, {0.0, 0.0, 0.0}};
+    for (int k = 0; k < 3; k++) {
+        double q[3], x[3], y[3];
+        rb_friction_info info;
+        for (int i = 0; i < 3; i++)
+            q[i] = -point[k][i];
+        const rb_friction_soclcp_problem p = {3, M, q, 1, size};
+        CHECK_OK(rb_friction_solve_soclcp(&p, NULL, x, y, &info));
+        assert_int_equal(info.contact, -1);
+        for (int i = 0; i < 3; i++) {
+            CHECK_ABS(x[i], want[k][i], 1e-7, "point %d, x[%d]", k, i);
+            CHECK_ABS(y[i], want[k][i] - point[k][i], 1e-7, "point %d, y[%d]", k, i);
+        }
     }
 }
 
@@ -235,7 +258,7 @@ TEST(a_cone_of_any_size)
     const rb_friction_soclcp_problem p = {N, M, q, 1, size};
     rb_friction_info info;
     CHECK_MAX(rb_friction_soclcp_error(&p, x, y), 1e-14, "planted");
-    CHECK_OK(rb_friction_soclcp(&p, NULL, x, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&p, NULL, x, y, &info));
     CHECK_ABS(x[0], norm, 1e-6, "x_0");
 }
 
@@ -246,14 +269,14 @@ TEST(bad_cones_are_refused)
     double x[2], y[2];
     rb_friction_info info;
     rb_friction_soclcp_problem p = {2, M, q, 2, ones};
-    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "q: entry 2"));
     p = (rb_friction_soclcp_problem){2, M, fine, 1, three};
-    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
     p = (rb_friction_soclcp_problem){2, M, fine, 2, none};
-    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_friction_solve_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
     p = (rb_friction_soclcp_problem){2, M, fine, 2, ones};
-    CHECK_OK(rb_friction_soclcp(&p, NULL, x, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&p, NULL, x, y, &info));
     CHECK_ABS(x[0], 1.0, 1e-7, "an LCP is one with half-lines");
     CHECK_ABS(y[1], 1.0, 1e-7, "its slack");
 }
@@ -328,7 +351,7 @@ TEST(the_soclcp_file_is_solved)
     double x[9], y[9];
     CHECK_OK(rb_friction_soclcp_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &d,
                                      &message));
-    CHECK_OK(rb_friction_soclcp(&d.problem, NULL, x, y, &info));
+    CHECK_OK(rb_friction_solve_soclcp(&d.problem, NULL, x, y, &info));
     for (int i = 0; i < 9; i++)
         CHECK_ABS(x[i] / (i % 3 ? 1.0 : d.tau[i / 3]), want[i % 3], 1e-6, "x[%d]", i);
 }

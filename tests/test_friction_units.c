@@ -403,7 +403,7 @@ TEST(cones_in_other_units)
         }
         const rb_friction_soclcp_problem p = {N, M, qs, 3, size};
         rb_friction_info info;
-        CHECK_OK(rb_friction_soclcp(&p, NULL, x, y, &info));
+        CHECK_OK(rb_friction_solve_soclcp(&p, NULL, x, y, &info));
         if (k)
             assert_int_equal(info.iters, iters);
         iters = info.iters;

@@ -33,11 +33,10 @@ void rb_api_free(rb_api *a);
 /* Reads the keys of a case file.  Options that rb_api_set has set keep their values. */
 int rb_api_read(rb_api *a, const char *path);
 
-/* Sets one option, with a text as in a case file.  A refused text changes no option; the
- * case is then refused with the same message until the option is set to a valid value (a
- * file: until it is read). The call discards the solution.  If only friction, load,
- * approach, shift, creepage or force were set since the last solve, the next solve reuses
- * the flexibility. */
+/* Sets one option, with a text as in a case file.  A refused text changes no option; the case is
+ * then refused with the same message until the option is set to a valid value (a file: until it is
+ * read). The call discards the solution.  If only friction, load, approach, shift, creepage or
+ * force were set since the last solve, the next solve reuses the flexibility. */
 int rb_api_set(rb_api *a, const char *name, const char *text);
 /* Checks that the options are consistent. */
 int rb_api_resolve(rb_api *a);
@@ -195,8 +194,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
 
-/* Each of these functions computes the arrays that are named after it from the solved
- * case. */
+/* Each of these functions computes the arrays that are named after it from the solved case. */
 
 /* A creep curve of the case: steady rolling at `points` values between from and to of over,
  * "creep-ratio", "creep" or "speed", with error bars if the case has them.
@@ -211,10 +209,9 @@ int rb_api_curve(rb_api *a, const char *over, double from, double to, int points
 int rb_api_pivots(rb_api *a);
 /* Newton's method from a contact that sticks everywhere. */
 int rb_api_newton(rb_api *a);
-/* Proves the solution, of steps the last one (docs/proof.md).  Then rb_api_number has
- * proof.proved, proof.undecided (elements), proof.isolated, proof.bound_p, proof.bound_q,
- * proof.stored_within, proof.nearby, proof.margin, proof.norm, and rb_api_word proof.reason
- * and proof.unique. */
+/* Proves the solution, of steps the last one (docs/proof.md).  Then rb_api_number has proof.proved,
+ * proof.undecided (elements), proof.isolated, proof.bound_p, proof.bound_q, proof.stored_within,
+ * proof.nearby, proof.margin, proof.norm, and rb_api_word proof.reason and proof.unique. */
 int rb_api_prove(rb_api *a);
 /* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none. */
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size);
@@ -232,16 +229,14 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth); /* INFINITY: of the 
 /* Moves the contact of a handle for "crack" over a crack in body B.  names and values: n
  * options of `rollbem crack` ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
-/* Computes the wear of a handle for "wear" like `rollbem wear`: law "archard" or
- * "dissipation", coefficient K [1/stress], share of B.  A slides by `slide` [length]; if that is
- * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps, each of
- * which is implicit and stable for any length; quarter: increments per quarter of a cycle of
- * fretting. */
+/* Computes the wear of a handle for "wear" like `rollbem wear`: law "archard" or "dissipation",
+ * coefficient K [1/stress], share of B.  A slides by `slide` [length]; if that is NAN, A frets or
+ * rolls for `cycles` cycles or turns.  steps: number of steps, each of which is implicit and stable
+ * for any length; quarter: increments per quarter of a cycle of fretting. */
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, double slide,
                 double cycles, int steps, int quarter);
-/* Derivatives of every number and column of the solution with respect to every number of
- * the case, on the elements of the solution.  The case must have one step and no error
- * bars. */
+/* Derivatives of every number and column of the solution with respect to every number of the case,
+ * on the elements of the solution.  The case must have one step and no error bars. */
 int rb_api_derivatives(rb_api *a);
 /* The same arrays without the jumps where an element changes between stick and slip
  * (theory-solvers.md D8), as of `rollbem --smooth-derivatives`; none with respect to gap and mu of
@@ -326,10 +321,9 @@ int rb_api_prove_problems(rb_api *a, int yes);
  * "acary", (13) of Acary, which depends on units.  rb_api_note tells if a problem is
  * solved in the scaled measure only. */
 int rb_api_friction_measure(rb_api *a, const char *measure);
-/* Solves u = W r + q with Coulomb's law, `dimension` (2 or 3) rows per contact, the
- * normal one first; W column by column, one mu per contact.  solver: a name of `rollbem
- * friction`. The function has nine plain parameters so that other languages need no
- * struct. */
+/* Solves u = W r + q with Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one
+ * first; W column by column, one mu per contact.  solver: a name of `rollbem friction`. The
+ * function has nine plain parameters so that other languages need no struct. */
 int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
                     const double *mu, const char *solver, double tol, int max_iters);
 /* The same with W in compressed columns, as of rb_api_lcp_sparse. */

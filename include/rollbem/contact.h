@@ -54,10 +54,9 @@ typedef struct {
     double axle; /* free axle (V4): 1/R_A, and the given force is the value above minus
                     axle M; otherwise 0 [1/length] */
 
-    /* A plastic layer between the surfaces (Y1): |r_T| <= max(0, yield + hardening u) on
-     * each element.  u_i = recall[0] u_i+1 + recall[1] u_i+2 + own |plastic_i| is the
-     * plastic slip accumulated in this problem; the plastic slip is a part of the slip
-     * T_T lambda. */
+    /* A plastic layer between the surfaces (Y1): |r_T| <= max(0, yield + hardening u) on each
+     * element.  u_i = recall[0] u_i+1 + recall[1] u_i+2 + own |plastic_i| is the plastic slip
+     * accumulated in this problem; the plastic slip is a part of the slip T_T lambda. */
     double *yield;         /* n [stress]: the bound at u = 0; owned; NULL: no plastic layer */
     double hardening;      /* [stress/length]; < 0: softening */
     double recall[2], own; /* u is transported with the material: 1, 0, 1 to first order,
@@ -89,9 +88,8 @@ rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *
 
 void rb_contact_problem_free(rb_contact_problem *problem);
 
-/* One coefficient of friction for all elements (bound NULL), or one for each: n values
- * between 0 and mu, which are copied.  May also be called between two solves; warm starts
- * remain valid. */
+/* One coefficient of friction for all elements (bound NULL), or one for each: n values between 0
+ * and mu, which are copied.  May also be called between two solves; warm starts remain valid. */
 void rb_contact_set_friction(rb_contact_problem *problem, double mu, const double *bound);
 
 /* ---- The state: unknowns of a problem ---------------------------------------------- */
@@ -207,8 +205,7 @@ typedef struct {
 /* A cone solver: a name, and the function that solves by the method of this name. */
 typedef struct {
     const char *name; /* borrowed; NULL: none */
-    /* r: 2n, written; the iterations are added to *iterations.  NULL: no solver has this
-     * name. */
+    /* r: 2n, written; the iterations are added to *iterations.  NULL: no solver has this name. */
     rb_status (*solve)(const char *name, const rb_contact_cone *cone, double tol, double *r,
                        int *iterations, rb_message *why);
 } rb_contact_cone_solver;

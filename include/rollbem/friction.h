@@ -47,9 +47,8 @@ typedef struct {
     double *v;     /* n: global form; or NULL */
 } rb_friction_solution;
 
-/* Condenses the global form to W = H' K^-1 H, q = w + H' K^-1 f; W is stored as a sparse
- * matrix if there are unconnected bodies.  RB_SINGULAR: K is singular; why names its
- * nullity. */
+/* Condenses the global form to W = H' K^-1 H, q = w + H' K^-1 f; W is stored as a sparse matrix if
+ * there are unconnected bodies.  RB_SINGULAR: K is singular; why names its nullity. */
 rb_status rb_friction_condense(const rb_friction_problem *global, rb_friction_problem *local,
                                rb_message *why);
 
@@ -67,19 +66,18 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *problem
 
 /* ---- Measure of error -------------------------------------------------------------- */
 
-/* scaled: the measure that decides whether a problem is solved.  With rho_c = 1/W_NN of
- * the diagonal block of each contact, (r_c / rho_c, u_c) is a point whose coordinates are
- * velocities; Coulomb's law allows those with r = 0 and u_N >= 0, with u = 0 and r in K,
- * or with u_N = 0 and r on the face of K opposite to u_T.  scaled is the norm over all
- * contacts of the distances from these points, over ||q||.  Before, contacts are scaled
- * by powers of two such that no W_NN is more than twice or less than half of the first
- * one: units of single contacts do not change it.  Global form: W_NN is estimated from diag(K).
- * worst: the largest distance of one contact, its number in `contact` (-1: none), as a
- * part of its own velocities |W| |r| + |q| and |r| / rho, but at least of 1e-4 ||q||;
- * "solved" needs both.  residual: equation (13) of *Acary*, ||r - P_K(r - uhat)|| / ||q||
- * (||F|| itself where q = 0), which adds forces to velocities and therefore depends on
- * units, and divides penetrations by mu.  floor: the size that the measures can have
- * because of rounding errors of the data. */
+/* scaled: the measure that decides whether a problem is solved.  With rho_c = 1/W_NN of the
+ * diagonal block of each contact, (r_c / rho_c, u_c) is a point whose coordinates are velocities;
+ * Coulomb's law allows those with r = 0 and u_N >= 0, with u = 0 and r in K, or with u_N = 0 and r
+ * on the face of K opposite to u_T.  scaled is the norm over all contacts of the distances from
+ * these points, over ||q||.  Before, contacts are scaled by powers of two such that no W_NN is more
+ * than twice or less than half of the first one: units of single contacts do not change it.  Global
+ * form: W_NN is estimated from diag(K). worst: the largest distance of one contact, its number in
+ * `contact` (-1: none), as a part of its own velocities |W| |r| + |q| and |r| / rho, but at least
+ * of 1e-4 ||q||; "solved" needs both.  residual: equation (13) of *Acary*, ||r - P_K(r - uhat)|| /
+ * ||q|| (||F|| itself where q = 0), which adds forces to velocities and therefore depends on units,
+ * and divides penetrations by mu.  floor: the size that the measures can have because of rounding
+ * errors of the data. */
 typedef struct {
     double residual, scaled, floor, worst;
     int contact;
@@ -152,16 +150,36 @@ const rb_friction_solver *rb_friction_solvers(int *count);
 
 rb_friction_options rb_friction_defaults(void);
 
-/* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and (unless NULL) v are
- * written; if the problem is not solved, they are the best iterate.  RB_OK: the residual
- * in the chosen measure is at most max(tol, floor), and below tol, in the scaled measure,
- * so is that of every contact. RB_MAXITER, RB_RAY, RB_SINGULAR,
- * RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL: unknown solver, or
- * the problem is invalid (sizes, mu < 0, NaN or infinity, K not symmetric) or refused by the
- * solver; info->msg has the reason. info: written, or NULL. */
+/* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and (unless NULL) v are written; if the
+ * problem is not solved, they are the best iterate.  RB_OK: the residual in the chosen measure is
+ * at most max(tol, floor), and below tol, in the scaled measure, so is that of every contact.
+ * RB_MAXITER, RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not solved.
+ * RB_EINVAL: unknown solver, or the problem is invalid (sizes, mu < 0, NaN or infinity, K not
+ * symmetric) or refused by the solver; info->msg has the reason. info: written, or NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
                             const rb_friction_options *opt, const rb_friction_solution *solution,
                             rb_friction_info *info);
+
+/* ---- Complementarity problems on cones, *Kanno* (1) -------------------------------- */
+
+/* y = M x + q, x and y in a product of cones, x'y = 0.  All arrays are borrowed. */
+typedef struct {
+    int n;           /* sum of the sizes */
+    const double *M; /* n x n column-major */
+    const double *q; /* n */
+    int cones;
+    const int *size; /* cones: size k > 1 is the Lorentz cone {x_0 >= ||x_1 ...||}, 1 a half-line */
+} rb_friction_soclcp_problem;
+
+/* Solves it by smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt NULL: defaults;
+ * r0 is the start x; v0 and progress are not used.  x, y: n, written; if the problem is not solved,
+ * they are the last iterate.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x;
+ * info->scaled, which decides: the same after y and q are divided by the mean of |diag(M)|, which
+ * gives them the unit of x.  Statuses as of rb_friction_solve; RB_EINVAL: the sizes are not n in
+ * all, NaN or infinity in M or q; x and y are then not written.  info: written, or NULL. */
+rb_status rb_friction_solve_soclcp(const rb_friction_soclcp_problem *problem,
+                                   const rb_friction_options *opt, double *x, double *y,
+                                   rb_friction_info *info);
 
 /* ---- All solutions in two dimensions ------------------------------------------------- */
 
@@ -176,11 +194,10 @@ typedef struct {
     int tried, singular, undecided; /* states of all contacts together, as of rb_lcp_solutions */
 } rb_friction_solutions;
 
-/* All solutions of a plane problem with at most 8 contacts, each once: every state of every
- * contact is tried (4^contacts).  seconds: time limit, 0: none.  The global form is condensed
- * first.  RB_TIME_LIMIT: what has been found so far; RB_EINVAL: dimension 3, in which their
- * number need not be finite, more contacts, or an invalid problem;
- * RB_SINGULAR, RB_ENOMEM. */
+/* All solutions of a plane problem with at most 8 contacts, each once: every state of every contact
+ * is tried (4^contacts).  seconds: time limit, 0: none.  The global form is condensed first.
+ * RB_TIME_LIMIT: what has been found so far; RB_EINVAL: dimension 3, in which their number need not
+ * be finite, more contacts, or an invalid problem; RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_friction_all(const rb_friction_problem *problem, double seconds,
                           rb_friction_solutions *all, rb_message *why);
 void rb_friction_solutions_free(rb_friction_solutions *all);
@@ -194,8 +211,7 @@ typedef struct rb_friction_handle rb_friction_handle;
 /* RB_EINVAL, RB_SINGULAR as for rb_friction_solve, with the reason in why. */
 rb_status rb_friction_setup(const rb_friction_problem *problem, rb_friction_handle **handle,
                             rb_message *why);
-/* Call it after you changed q, or f and w, or mu of the problem; W, K and H must be
- * unchanged. */
+/* Call it after you changed q, or f and w, or mu of the problem; W, K and H must be unchanged. */
 rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why);
 /* As rb_friction_solve; opt->r0 NULL: starts from the last solution, if there is one. */
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *solver,

@@ -1,6 +1,5 @@
-/* Linear complementarity problems: z >= 0, w = M z + q >= 0, z'w = 0. Contact does not
- * appear here.  Reference: Cottle, Pang, Stone, The Linear Complementarity Problem
- * (1992), chapter 4. */
+/* Linear complementarity problems: z >= 0, w = M z + q >= 0, z'w = 0. Contact does not appear here.
+ * Reference: Cottle, Pang, Stone, The Linear Complementarity Problem (1992), chapter 4. */
 #ifndef ROLLBEM_LCP_H
 #define ROLLBEM_LCP_H
 
@@ -9,8 +8,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* w = M z + q with a dense M.  The pointers are borrowed, as in every problem of this
- * header. */
+/* w = M z + q with a dense M.  The pointers are borrowed, as in every problem of this header. */
 typedef struct {
     int n;
     const double *M; /* n x n, column-major */
@@ -18,9 +16,8 @@ typedef struct {
     const double *q; /* n */
 } rb_lcp_problem;
 
-/* The mixed problem: M is sparse, and lower <= z <= upper.  Each w_i is >= 0 where z_i =
- * lower_i, <= 0 where z_i = upper_i, 0 in between, and any number where lower_i =
- * upper_i. */
+/* The mixed problem: M is sparse, and lower <= z <= upper.  Each w_i is >= 0 where z_i = lower_i,
+ * <= 0 where z_i = upper_i, 0 in between, and any number where lower_i = upper_i. */
 typedef struct {
     const rb_sparse *M;
     const double *q;             /* n */
@@ -86,16 +83,15 @@ typedef struct {
 
 rb_lcp_options rb_lcp_defaults(void);
 
-/* Lemke's method.  z: n, written (the last basic point if the problem is not solved). opt
- * NULL: defaults.  If the largest entries of rows or columns differ by a factor of more
- * than 1024, this and the other solvers work on the equilibrated R M C and R q, with
- * diagonal R and C of powers of two (Ruiz).  The default covering vector of ones is then
- * used for the equilibrated problem.  The trace receives values in the caller's units.
- * RB_OK; RB_NO_SOLUTION: the ray at the end of the path proves that M z + q >= 0 has no z
- * >= 0; RB_RAY: a ray that proves nothing; RB_MAXITER, RB_TIME_LIMIT; RB_NUMERICAL:
- * rounding errors have led the path back to its beginning; RB_INACCURATE: info->scaled is
- * above 1e-10 because of rounding errors; RB_EINVAL: n < 1, ldm < n, NaN or infinity, an
- * invalid covering vector; RB_ENOMEM. */
+/* Lemke's method.  z: n, written (the last basic point if the problem is not solved). opt NULL:
+ * defaults.  If the largest entries of rows or columns differ by a factor of more than 1024, this
+ * and the other solvers work on the equilibrated R M C and R q, with diagonal R and C of powers of
+ * two (Ruiz).  The default covering vector of ones is then used for the equilibrated problem.  The
+ * trace receives values in the caller's units. RB_OK; RB_NO_SOLUTION: the ray at the end of the
+ * path proves that M z + q >= 0 has no z >= 0; RB_RAY: a ray that proves nothing; RB_MAXITER,
+ * RB_TIME_LIMIT; RB_NUMERICAL: rounding errors have led the path back to its beginning;
+ * RB_INACCURATE: info->scaled is above 1e-10 because of rounding errors; RB_EINVAL: n < 1, ldm < n,
+ * NaN or infinity, an invalid covering vector; RB_ENOMEM. */
 rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info);
 
@@ -174,18 +170,16 @@ typedef struct {
                          is proved, or not looked at */
 } rb_lcp_proof;
 
-/* Proves that there is a solution with the signs of z, or of a z near to it, which may come
- * from any solver.  RB_OK: proved; RB_UNDECIDED: not proved, see proof->reason;
- * RB_INTERRUPTED; RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM.  No tolerance decides
- * anything.  Needs dense matrices of the unknowns inside their bounds, 4000 at most.  Free the
- * proof. */
+/* Proves that there is a solution with the signs of z, or of a z near to it, which may come from
+ * any solver.  RB_OK: proved; RB_UNDECIDED: not proved, see proof->reason; RB_INTERRUPTED;
+ * RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM.  No tolerance decides anything.  Needs dense
+ * matrices of the unknowns inside their bounds, 4000 at most.  Free the proof. */
 rb_status rb_lcp_prove(const rb_lcp_mixed_problem *p, const double *z, rb_lcp_proof *proof);
 void rb_lcp_proof_free(rb_lcp_proof *proof);
 
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
 double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
-/* The same for the mixed problem: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|; w:
- * n. */
+/* The same for the mixed problem: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|; w: n. */
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w);
 
 RB_PUBLIC_END

@@ -1,11 +1,11 @@
-/* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver
- * -> solution.  Each arrow is a function that takes the structs before it and fills the next
- * one, so that a program can call each step alone and look at its result.  Words make the
- * case (case.h), and api.h has curves, wear and studies.
- * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to
- * -x; a creepage xi > 0 means a braked wheel: A's surface slides towards +x over the
- * ground, the friction on A points to -x, and Q < 0.  Loads are per unit length (plane
- * strain). Equation tags (K1) ... (K6): docs/theory.md. */
+/* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver ->
+ * solution.  Each arrow is a function that takes the structs before it and fills the next one, so
+ * that a program can call each step alone and look at its result.  Words make the case (case.h),
+ * and api.h has curves, wear and studies.
+ * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to -x; a
+ * creepage xi > 0 means a braked wheel: A's surface slides towards +x over the ground, the friction
+ * on A points to -x, and Q < 0.  Loads are per unit length (plane strain).  Equation tags
+ * (K1) ... (K6): docs/theory.md. */
 #ifndef ROLLBEM_ROLLING_H
 #define ROLLBEM_ROLLING_H
 
@@ -92,8 +92,7 @@ rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_pla
 
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 
-/* The bodies of a case on a contact mesh.  The factorised systems are kept for later
- * solves. */
+/* The bodies of a case on a contact mesh.  The factorised systems are kept for later solves. */
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
     rb_bem_system *system_a, *system_b; /* NULL for half-planes, covers and rigid bodies;
@@ -224,8 +223,7 @@ typedef struct {
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
     rb_rolling_ellipse ellipse;          /* NAN: there is none */
     /* steady, of an ellipse between alike bodies, or by the strips that the case asks for: Q of the
-     * whole of it; and of alike bodies with the
-     * slope of Kalker's C11 [force]; otherwise NAN */
+     * whole of it; and of alike bodies with the slope of Kalker's C11 [force]; otherwise NAN */
     double ellipse_force, ellipse_force_kalker;
     /* of layers on smooth bases: the creepage of what is unstrained ahead of the contact, and
      * behind it (L9); NAN: there is none */
@@ -331,21 +329,18 @@ typedef struct rb_rolling_model {
     struct rb_rolling_model *freely;
 } rb_rolling_model;
 
-/* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
- * positive status the model holds the last iterate; RB_ZONE: the contact does not end
- * within the given zone, the wheel or the table.  model: overwritten; free it in any
- * case. */
+/* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a positive
+ * status the model holds the last iterate; RB_ZONE: the contact does not end within the given zone,
+ * the wheel or the table.  model: overwritten; free it in any case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
 
 void rb_rolling_model_free(rb_rolling_model *model);
 
-/* The LCP whose solution is the model's state, or the one that Lemke's method tries
- * first. */
+/* The LCP whose solution is the model's state, or the one that Lemke's method tries first. */
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why);
 
-/* Computes the solution from the state: tractions, slip, zones, forces and their
- * residuals. */
+/* Computes the solution from the state: tractions, slip, zones, forces and their residuals. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                     rb_message *why);
 
@@ -451,10 +446,9 @@ typedef struct {
 
 void rb_rolling_stress_maxima_free(rb_rolling_stress_maxima *maxima);
 
-/* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and
- * inside; or not deeper than `depth` [length], if that is not 0.  At the ends of a clamped
- * arc the stress is infinite: what lies within one element of them is left out.  Free the maxima in
- * any case. */
+/* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and inside; or
+ * not deeper than `depth` [length], if that is not 0.  At the ends of a clamped arc the stress is
+ * infinite: what lies within one element of them is left out.  Free the maxima in any case. */
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why);
 
@@ -469,9 +463,8 @@ typedef struct {
                                                   unless requested */
 } rb_rolling_errors;
 
-/* Solves a case in one call; of a case with several steps the solution is that of the
- * last step.  On a positive status it holds the last iterate.  solution is overwritten;
- * free it in any case. */
+/* Solves a case in one call; of a case with several steps the solution is that of the last step.
+ * On a positive status it holds the last iterate.  solution is overwritten; free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
 

@@ -163,25 +163,7 @@ int rb_friction_may_have_several(const rb_friction_problem *problem);
 void rb_friction_profile(int problems, int solvers, const double *cost, int taus, const double *tau,
                          double *rho);
 
-/* ---- The canonical SOCLCP, *Kanno* (1) --------------------------------------------- */
-
-/* y = M x + q, x and y in a product of cones, x'y = 0.  Borrowed. */
-typedef struct {
-    int n;           /* sum of the sizes */
-    const double *M; /* n x n column-major */
-    const double *q; /* n */
-    int cones;
-    const int *size; /* one per cone: size k > 1 is the Lorentz cone {x_0 >= ||x_1 ...||},
-                        size 1 a half-line */
-} rb_friction_soclcp_problem;
-
-/* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
- * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x; info->scaled,
- * which decides: the same after y and q are divided by the mean of the diagonal of M,
- * which gives them the unit of x.  info may be NULL. */
-rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
-                             const rb_friction_options *opt, double *x, double *y,
-                             rb_friction_info *info);
+/* ---- The canonical SOCLCP (rollbem/friction.h) from a file ------------------------- */
 
 /* An rb_friction_soclcp_problem with its own arrays.  Cones of slope tau in a file, ||x_1|| <= tau
  * x_0, are scaled to slope 1: x_0 is tau times and y_0 1/tau times the value of the file. */

@@ -133,8 +133,9 @@ static int canonical_accepts(void *context, const double *x)
     return error_in(c->p, c->unit, x, c->y) <= c->tol;
 }
 
-rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_friction_options *opt,
-                             double *x, double *y, rb_friction_info *info)
+rb_status rb_friction_solve_soclcp(const rb_friction_soclcp_problem *p,
+                                   const rb_friction_options *opt, double *x, double *y,
+                                   rb_friction_info *info)
 {
     const double start = rb_seconds();
     const rb_friction_options used = opt ? *opt : rb_friction_defaults();
@@ -142,8 +143,8 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_frict
     rb_friction_info unwanted;
     if (!info)
         info = &unwanted;
-    *info =
-        (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
+    *info = (rb_friction_info){
+        .solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY, .contact = -1};
     rb_message *why = &info->msg;
     for (int k = 0; k < p->cones; k++) {
         if (p->size[k] < 1 || p->size[k] > p->n - sum)

@@ -440,7 +440,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
         code = failed(r, RB_EINVAL, "only soclcp-smoothing solves problems on cones");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
-        s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
+        s = rb_friction_solve_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
         /* Back from slope 1 to the slopes of the file. */
         for (int c = 0, at = 0; c < d.problem.cones; at += d.size[c++]) {
             r->r[at] /= d.tau[c];
