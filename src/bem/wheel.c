@@ -44,6 +44,8 @@ rb_ring_compliance rb_ring_of_wheel(const rb_bem_wheel *w, double m)
  * closed form does not have. */
 static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
 {
+    /* c: normal, tangential and coupling coefficient of cos m x, cos m x and sin m x; wave m > 0
+     * stands for m and -m. */
     const rb_ring_compliance wheel = wheel_waves(w, m, softer);
     rb_ring_compliance disc = {0.0, 0.0, 0.0, 0.0};
     const double twice = m > 0.0 ? 2.0 : 1.0;
@@ -73,7 +75,8 @@ static void memory_waves(const rb_bem_wheel *w, double m, cplx c[3])
         c[k] = softer * c[k] - glassy[k];
 }
 
-/* The last wave of either. */
+/* The last wave of either. The inner contour feels wave m by (inner/radius)^m: beyond RB_RING_REACH
+ * over the logarithm nothing. */
 static int last_wave(const rb_bem_wheel *w)
 {
     return 2 + (int)ceil(fmin(RB_RING_REACH / log(w->radius / w->inner), 1e9));
@@ -113,6 +116,7 @@ static rb_ring_answer disc_over_halfplane(double kappa, double x)
 static rb_ring_answer halfplane_average(const rb_bem_wheel *w, int term, double x)
 {
     static const double one = 1.0;
+    /* A strip of R/100 at x = +-pi, so far from its own load that its mean is the value there. */
     const double h = 1e-2 * w->radius, at = x * w->radius, ends[2] = {-0.5 * h, 0.5 * h};
     rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);
     double own[4], slow[4];
@@ -144,6 +148,8 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
 {
     const double kappa = 3.0 - 4.0 * w->material.poisson, f = w->ratio[term],
                  length = w->length[term] / w->radius;
+    /* Round 0 finds the average beyond pi from the condition that one turn brings it back; round 1
+     * fills the table with it. */
     const rb_ring_answer ahead = halfplane_average(w, term, M_PI),
                          behind = halfplane_average(w, term, -M_PI);
     const double turn = exp(-2.0 * M_PI / length), rest = -expm1(-2.0 * M_PI / length);
@@ -174,6 +180,8 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
 /* Equal steps to +-reach, growing ones from there to +-pi. */
 static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
 {
+    /* Steps of a twentieth of the thickness of the ring, which is the length over which its answer
+     * varies. */
     enum { OUTSIDE = 1500, LEAST = 400, MOST = 20000 };
     const double step = 0.05 * log(w->radius / w->inner);
     const int half = (int)fmin(fmax(ceil(reach / step), LEAST), MOST), middle = OUTSIDE + half;
@@ -225,6 +233,7 @@ void rb_wheel_turn(const double *cosine, const double *sine, int way, int count,
 void rb_wheel_turn_block(rb_direction to, rb_direction from, double B[4])
 {
     const double c = to.cosine, s = to.sine, cf = from.cosine, sf = from.sine;
+    /* Columns are turned by the angle of the load, rows by that of the point. */
     const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3], cf * B[2] - sf * B[0],
                          cf * B[3] - sf * B[1]};
     B[0] = c * P[0] + s * P[1];
@@ -276,6 +285,7 @@ rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x)
     rb_ring_answer inner = {0.0, 0.0, 0.0};
     if (kernel->inner.panels > 0)
         inner = rb_ring_table_at(&kernel->inner, x);
+    /* Primitives: of the half-plane's logarithm x - x ln|x|, of its sign |x|. */
     const double plane =
         x != 0.0 ? (kernel->kappa + 1.0) * x * (1.0 - log(fabs(x) / kernel->datum)) : 0.0;
 
@@ -307,6 +317,7 @@ rb_status rb_wheel_response(const void *body, int n, double h, double *N, double
                                  (n + 1) * h, &inner);
     rb_ring_answer before = {0.0, 0.0, 0.0};
     for (int k = -1; k <= n && s == RB_OK; k++) {
+        /* The integral over an element is the difference of the primitives at its ends. */
         const double end = (k + 0.5) * h;
         const rb_ring_answer disc = disc_primitive(w, end), rest = rb_ring_table_at(&inner, end);
         const rb_ring_answer at = {disc.N + rest.N, disc.T + rest.T, disc.C + rest.C};
@@ -340,6 +351,8 @@ static void circumference_free(circumference *c)
     free(c->at);
 }
 
+/* On a circle, arcs take the places of abscissae: the half-plane's answer along the arc is a part
+ * of the wheel's. */
 static rb_status place_circumference(double radius, int n, const double *ends, int parts,
                                      circumference *c)
 {
@@ -482,6 +495,8 @@ rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
     return RB_OK;
 }
 
+/* (B12): the half-plane along the circumference, what the disc has over it and what the inner
+ * contour changes, turned into the contact frame. */
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                    rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why)
 {
@@ -512,6 +527,8 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
     return rb_bem_flexibility_end("wheel", n_c, s, f, why);
 }
 
+/* Normal displacement at `points` abscissae x under strips of p and q on the rim, without a
+ * matrix. */
 rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load, int points,
                               const double *x, double *w)
 {

@@ -32,6 +32,8 @@ static double complex place(const rb_crack_path *path, int k)
     return path->x[k] + I * path->y[k];
 }
 
+/* Pieces, elements and material; the crack lies in the half-plane y < 0, and its mouth may touch y
+ * = 0. */
 static rb_status check_shape(const rb_crack_shape *shape, rb_message *why)
 {
     const rb_crack_path *path = &shape->path;
@@ -77,6 +79,8 @@ void rb_crack_grade(const rb_crack_path *path, int n, double *s)
     for (int k = 0; k < pieces; k++)
         length += cabs(place(path, k + 1) - place(path, k));
     for (int k = 0; k < pieces; k++) {
+        /* s = L sin^2 phi, phi from 0 to pi/2: elements become shorter towards the mouth and the
+         * tip, as the square root of the distance from there.  Kinks are ends of elements. */
         const double end = before + cabs(place(path, k + 1) - place(path, k)),
                      phi = k + 1 < pieces ? asin(sqrt(fmin(end / length, 1.0))) : M_PI_2;
         /* so many at least for this piece and for each one that is left */
@@ -130,6 +134,8 @@ static inline double complex traction_of(double complex z, double complex t, dou
 static void add_direct(const rb_crack_element *e, double complex z, double complex t_z,
                        double complex traction[2])
 {
+    /* J1, J2: the integrals of 1/(z - s) and 1/(z - s)^2 over the element; Phi, Psi are
+     * Muskhelishvili's potentials of the density. */
     const double complex z1 = z - e->from, z2 = z1 - e->length * e->t, r = 1.0 / e->t;
     const double complex J1 = clog(z1 * inverse(z2)) * r;
     const double complex J2 = (inverse(z2) - inverse(z1)) * r;
@@ -146,6 +152,8 @@ static void add_direct(const rb_crack_element *e, double complex z, double compl
 static void add_image(const rb_crack_element *e, double complex z, double complex t_z,
                       double complex traction[2])
 {
+    /* The image of the element in the surface, at conj(s): with it the surface y = 0 is free of
+     * traction. */
     const double complex t = conj(e->t), r = 1.0 / t, turn = e->t * r;
     const double complex c1 = z - conj(e->from), c2 = c1 - t * e->length;
     const double complex v1 = inverse(c1), v2 = inverse(c2);
@@ -172,6 +180,7 @@ static double log_mean(const rb_crack_element *e, const rb_crack_element *f)
 {
     static const double x[] = {-0.77459666924148338, 0.0, 0.77459666924148338},
                         w[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    /* Near elements by the exact second antiderivative, far ones by three Gauss points. */
     const double a = e->s, k = e->length, c = f->s, l = f->length;
     double sum = 0.0;
 
@@ -195,6 +204,7 @@ static double log_integral(double s, const rb_crack_element *e)
 int rb_crack_points(const rb_crack_element *e, int graded_from, int graded_to,
                     gsl_integration_glfixed_table *const rule[2], rb_crack_point *point)
 {
+    /* A substitution u^4 at a graded end takes the singularity out of the integrand. */
     const int parts = graded_from || graded_to ? 2 : 1;
     int count = 0;
 
@@ -225,6 +235,8 @@ static void add_entry(rb_crack *c, int j, int l, int direction, double complex t
         return;
     for (int end = 0; end < 2; end++) {
         const int node = l + end - c->first;
+        /* b = -dD/ds: along the element the hat of its first node falls, that of its second one
+         * rises. */
         const double slope = (end ? -1.0 : 1.0) / c->element[l].length;
         if (node < 0 || node >= n)
             continue;
@@ -246,6 +258,8 @@ static rb_status add_collinear(rb_crack *c, double C)
         for (int l = 0; l < c->shape.elements; l++) {
             if (e[i].piece != e[l].piece)
                 continue;
+            /* Where a piece begins or ends the hat is not zero, and the integration by parts leaves
+             * the value there. */
             const int starts = i == 0 || e[i - 1].piece != e[i].piece;
             const int ends = i + 1 == c->shape.elements || e[i + 1].piece != e[i].piece;
             double from = log_mean(&e[i], &e[l]) / e[i].length, to = from;
@@ -272,6 +286,8 @@ static rb_status add_quadrature(rb_crack *c, double g)
                                                     gsl_integration_glfixed_table_alloc(GRADED)};
 
     rb_status status = rule[0] && rule[1] ? RB_OK : RB_ENOMEM;
+    /* Row by row: tractions of all elements l at the points of element i, weighted by the hats of
+     * its two nodes. */
     for (int i = 0; i < n && status == RB_OK; i++) {
         status = rb_interrupted() ? RB_INTERRUPTED : RB_OK;
         rb_crack_point point[2 * GRADED];
@@ -335,6 +351,8 @@ void rb_crack_free(rb_crack *c)
 static rb_status assemble(const rb_crack_shape *shape, const double *s, rb_crack **crack,
                           rb_message *why)
 {
+    /* G/(4 pi (1 - nu)) = G/(pi (kappa + 1)): the factor of a dislocation's stress in plane
+     * strain. */
     const double g = shape->shear / (4.0 * M_PI * (1.0 - shape->poisson));
     rb_crack *c = *crack = calloc(1, sizeof *c);
     if (!c)
@@ -387,6 +405,7 @@ static rb_status calibrate(rb_crack *c, const double *s, rb_message *why)
     straight.path = rb_crack_straight(0.0, 0.0, length, 90.0);
     const rb_status status = assemble(&straight, s, &known, why);
     if (status == RB_OK) {
+        /* D_N of the last node under unit tension on all nodes. */
         const double D = cblas_ddot(known->n, known->F + known->n - 1, 2 * known->n, known->hat, 1);
         c->per_D = (c->first ? sqrt(0.5) : EDGE_CRACK) * sqrt(M_PI * length) / D;
     }

@@ -52,6 +52,9 @@ static double unit_of(const rb_resolved_case *c, const rb_case_crack *k,
                                           : one->hertz_half_width;
 }
 
+/* All lengths of a crack in mm; those without a unit are multiples of the half-width a. What is not
+ * given follows: --from and --to lie FAR half-widths before and behind the mouth, and a crack grows
+ * to twice its length. */
 rb_case_crack rb_case_crack_lengths(const rb_resolved_case *c, const rb_case_crack *k, double a)
 {
     rb_case_crack l = *k;
@@ -117,6 +120,8 @@ static rb_status check_places(const rb_case_crack *l, double a, rb_message *why)
     return RB_OK;
 }
 
+/* The elements of the crack have to resolve the stress of the contact, which varies over the
+ * half-width or, close to the surface, over the depth. */
 rb_status rb_case_crack_check_elements(const rb_crack_path *path, int n, double a, rb_message *why)
 {
     static const double LONGEST = 2.0;
@@ -130,6 +135,7 @@ rb_status rb_case_crack_check_elements(const rb_crack_path *path, int n, double 
         length = s[n];
     }
     for (int j = 0; j < n && has_memory; j++) {
+        /* The depths of its two ends: the imaginary axis points upwards, out of B. */
         const rb_crack_element *e = &element[j];
         const double from = -cimag(e->from), to = from - e->length * cimag(e->t);
         worst = fmax(worst, e->length / fmax(a, fmin(from, to)));
@@ -198,6 +204,7 @@ int rb_case_crack_cycles(const rb_case_crack *k)
     return k->remote_stresses.n == 2;
 }
 
+/* A crack without a contact is computed once, unless a cycle of the remote stress repeats. */
 static int passes_of(const rb_case_crack *k)
 {
     return k->unloaded && !rb_case_crack_cycles(k) ? 1 : k->passes;
@@ -308,6 +315,8 @@ static int marks_of(const rb_case_crack_track *t, int n, const int *zone, double
             ((j > 0 && load->p[j - 1] > 0.0) || (j + 1 < load->n && load->p[j + 1] > 0.0)))
             mark[marks++] = load->x[j];
     for (int i = 1; i < n && marks < MOST_MARKS; i++) {
+        /* The loop above has the edges of tractions in nodes, so that only the ends of stick are
+         * left; the pressure of strips also jumps at an edge. */
         const int loaded = zone[i] != RB_ZONE_SEPARATED, before = zone[i - 1] != RB_ZONE_SEPARATED,
                   sticks = zone[i] == RB_ZONE_STICK, stuck = zone[i - 1] == RB_ZONE_STICK;
         if (loaded && before ? sticks != stuck : t->kind == RB_CRACK_STRIPS && loaded != before)
@@ -327,13 +336,16 @@ static int first_positions(const rb_case_crack *l, double a, double finer, int m
     double step = NARROW * scale / finer;
     int n = 0;
 
+    /* Equal positions all the way; the last one is exactly its end. */
     for (int i = 0; i <= intervals; i++)
         x[n++] = i < intervals ? l->from + (l->to - l->from) * i / intervals : l->to;
+    /* Wider steps near the mouth where the array has no room for so many. */
     while (2.0 * marks * room / step > MOST_POSITIONS - n)
         step *= 1.1;
     for (int m = 0; m < marks && scale < a; m++) {
         const int half = (int)ceil(room / step);
         for (int i = -half; i <= half && n <= MOST_POSITIONS; i++) {
+            /* The contact at x has this mark at x + mark, which is the mouth for i = 0. */
             const double at = l->mouth - mark[m] + i * step;
             if (at > l->from && at < l->to)
                 x[n++] = at;
@@ -365,6 +377,8 @@ static int more_positions(const rb_crack_history *h, int passes, double least, d
         return -1;
     for (int j = 0; j < 4; j++)
         largest = columns[j] ? fmax(largest, rb_norm_inf((size_t)n, columns[j] + from)) : largest;
+    /* parts[i]: into how many parts the interval before position i is divided; PARTS beside an
+     * extreme of one of the columns, otherwise 0. */
     for (int j = 0; j < 4; j++)
         for (int sign = -1; sign <= 1 && columns[j]; sign += 2) {
             const double *value = columns[j] + from;
@@ -377,6 +391,7 @@ static int more_positions(const rb_crack_history *h, int passes, double least, d
                     h->x[from + i] - h->x[from + i - 1] > least)
                     parts[i] = PARTS;
         }
+    /* The old positions and the new ones between them, in their order. */
     for (int i = 1; i < n; i++)
         added += parts[i] ? PARTS - 1 : 0;
     double *x = added ? rb_alloc((size_t)(n + added), 1) : NULL;
@@ -459,6 +474,7 @@ static void RB_PRINTF(3, 4) note(rb_case_crack_result *r, int applies, const cha
     va_end(values);
 }
 
+/* What a user of the result has to know, each with how far it is from what is wanted. */
 static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
                        const rb_case_crack_track *t, rb_case_crack_result *r)
 {
@@ -524,6 +540,8 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
                                                   marks_of(t, one->n, one->zone, mark), mark, x);
         return RB_OK;
     }
+    /* Without a choice of the program: the two ends of a cycle, the steps of the history, or equal
+     * steps between --from and --to. */
     t->n = k->unloaded ? 1 + rb_case_crack_cycles(k)
            : has_steps ? r->states.steps
                        : finer->steps * c->rc.steps + 1;
@@ -558,6 +576,8 @@ static rb_status set_tensions(const rb_case_crack *k, const rb_case_crack_result
     return t->tension ? RB_OK : RB_ENOMEM;
 }
 
+/* From the solved contact to what acts on the crack: its shape in mm, the loads, where they stand,
+ * and the remote stress at each position. */
 rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
                                const rb_case_crack_mesh *finer, rb_case_crack_result *r,
                                rb_case_crack_track *t, rb_message *why)
@@ -573,6 +593,7 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
         return s;
     const rb_case_crack l = rb_case_crack_lengths(c, k, r->half_width);
     const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
+    /* G and nu of the body that has the crack; without a contact there is only A. */
     r->shape = (rb_crack_shape){
         .path = rb_crack_straight(l.mouth, l.depth, l.length, k->angle),
         .elements = k->elements,
@@ -653,6 +674,8 @@ static double *forces_at(const rb_crack *crack, const rb_crack_passage *to,
     return T;
 }
 
+/* Moves the load over the crack. The positions are refined beside the extremes of K, at most
+ * SEARCHES times, because the range of K in a cycle is that of these extremes. */
 rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *l,
                              const rb_case_crack_track *t, const rb_crack_wheel *wheel,
                              const rb_crack_observer *observer, rb_crack *crack,
@@ -671,6 +694,8 @@ rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *l,
     passage.forces = T;
     if (s == RB_OK)
         s = rb_crack_pass(crack, &passage, &r->history, why);
+    /* Each search computes all positions again, because the faces remember their slip; only the
+     * nodal forces of the former positions are kept. */
     for (int i = 0; i < searches && s == RB_OK; i++) {
         rb_crack_passage finer = passage;
         double *x;
@@ -729,18 +754,21 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k,
     }
     if (k->coupled)
         refined.rc.zone = zone;
+    /* 1. The contact, whose steps are kept as loads; 2. its way over the crack. */
     rb_status s = k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &kept, &r->contact, why);
     if (s == RB_INTERRUPTED && kept.failed)
         s = RB_ENOMEM;
     if (s == RB_OK)
         s = rb_case_crack_follow(c, k, finer, r, &t, why);
     r->shape.elements *= finer->crack;
+    /* 3. A crack that changes the contact needs the flexibility of the wheel as a matrix. */
     if (s == RB_OK && k->coupled)
         s = rb_rolling_model_add_matrix(&r->contact.model, why);
     if (s == RB_OK)
         s = rb_crack_create(&r->shape, &crack, why);
     if (s == RB_OK) {
         const rb_rolling_model *model = &r->contact.model;
+        /* 4. K at every position, what follows from it, and the growth of the crack. */
         const rb_crack_wheel wheel = {.n = model->mesh.n,
                                       .ends = t.ends,
                                       .F = model->bodies.F,
@@ -782,6 +810,7 @@ static rb_status solve_on_zones(const rb_resolved_case *c, const rb_case_crack *
     double zone = c->rc.zone > 0.0 ? c->rc.zone : ZONE * c->derived.half_width;
     rb_status s = solve_once(c, k, finer, zone, observer, r, why);
 
+    /* The opening of a crack widens the contact a little, so that few zones are tried. */
     for (int i = 1;
          i < ZONES && k->coupled && c->rc.zone == 0.0 && s == RB_OK && reaches_end(&r->history);
          i++) {
@@ -811,6 +840,7 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
     static const rb_case_crack_mesh meshes[RUNS] = {
         {2.0, 1.0, 1, 2}, {1.4, 1.4, 1, 1}, {1.0, 1.0, 2, 1}};
     rb_case_crack_summary others[RUNS];
+    /* Error bars: the same on three other meshes. */
     for (int i = 0; i < RUNS && s == RB_OK && c->error; i++) {
         rb_case_crack_result other;
         rb_case_crack finer = *k;

@@ -39,6 +39,7 @@ const char *rb_design_result_name(const rb_rolling_result *result)
     return result ? result->name : ripple_;
 }
 
+/* *result NULL: the ripple of the pressure, which no table of results has. */
 static rb_status find_result(const char *option, const char *name, const rb_rolling_result **result,
                              rb_message *why)
 {
@@ -136,6 +137,7 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
     return bound[0] < bound[1] ? RB_OK : rb_refuse(why, "over", "%s: expected A < B", name);
 }
 
+/* In mm, N, MPa; the search starts from the value that the case has. */
 static rb_status add_variable(rb_design *d, const char *name, const char *unit, double low,
                               double high, double start, rb_message *why)
 {
@@ -267,6 +269,8 @@ typedef struct {
     int entry;
 } variation;
 
+/* The case with one variable changed, for the derivative by it. All variations keep the table of
+ * the gap at x, which rb_case_resolve would read from its file. */
 static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_message *why)
 {
     const variation *v = context;
@@ -291,6 +295,8 @@ static double weight_of(const rb_rolling_solution *s, double span, int i)
 static void read_functions(const rb_design *d, const rb_rolling_solution *s,
                            const rb_rolling_solution *along, double *f, int stride)
 {
+    /* ripple^2 = mean of (p/p_mean - 1)^2 over the span; its rate follows from those of p and
+     * p_mean. */
     double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
 
     /* The ripple, and its derivative. */
@@ -318,6 +324,8 @@ static void read_functions(const rb_design *d, const rb_rolling_solution *s,
     }
 }
 
+/* The gradients of all functions at x, by one factorisation of J (D2); column j of `gradient` is
+ * that of variable j. */
 static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_case *rc,
                                const rb_rolling_model *model, const rb_rolling_solution *solution)
 {
@@ -375,6 +383,8 @@ static rb_status check_known(problem *p, rb_rolling_formulation formulation)
     return RB_OK;
 }
 
+/* Solves the case at x: values of all functions, their gradients, and whether x is the best so
+ * far. */
 static rb_status evaluate(problem *p, const double *x)
 {
     rb_design *d = p->d;
@@ -448,6 +458,8 @@ typedef struct {
     double bound;
 } function;
 
+/* NLopt asks for each function separately, at the same point: the case is solved once for all of
+ * them. */
 static double call(unsigned n, const double *u, double *gradient, void *context)
 {
     function *f = context;
@@ -484,6 +496,8 @@ static double call(unsigned n, const double *u, double *gradient, void *context)
 
 static rb_status search(problem *p)
 {
+    /* Sequential quadratic programming on variables of 0 to 1, with functions of order 1: the
+     * objective over its value at the start, constraints over their bounds. */
     rb_design *d = p->d;
     function f[1 + RB_DESIGN_CONSTRAINTS];
     double *u = rb_alloc((size_t)d->n, 1), least;

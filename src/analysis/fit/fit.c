@@ -36,6 +36,7 @@ static const double CORRELATED = 0.95;
  * the others make up. */
 static rb_status covariance(const fit_problem *p, double *C, int *which)
 {
+    /* Columns of J scaled to length 1 make pivots comparable, whatever the units of the numbers. */
     const int n = p->n;
     double length[RB_CASE_FIT_MAX];
 
@@ -52,6 +53,7 @@ static rb_status covariance(const fit_problem *p, double *C, int *which)
             *which = j;
             return RB_SINGULAR;
         }
+    /* L_jj is the distance of column j, of length 1, from what the columns before it span. */
     const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, C, n);
     for (int j = 0; j < n && info == 0; j++)
         if (C[j + j * n] < 1e-6) {
@@ -68,6 +70,7 @@ static rb_status covariance(const fit_problem *p, double *C, int *which)
     return RB_OK;
 }
 
+/* With given deviations the residuals have variance 1; otherwise it is estimated from them. */
 static double variance_of(const fit_problem *p)
 {
     return p->data->sigma ? 1.0 : p->fit->chi_square / p->fit->degrees_of_freedom;
@@ -111,6 +114,8 @@ static void not_identified(const fit_problem *p, int j)
                   "the data do not determine %s: it is not identified\n", of->name);
 }
 
+/* Intervals from the linear model at the minimum: theta +- t sqrt(variance C_jj), with Student's t
+ * of the degrees of freedom; then what makes them doubtful. */
 static void set_intervals(fit_problem *p, const double *theta)
 {
     rb_case_fit *fit = p->fit;
@@ -119,6 +124,7 @@ static void set_intervals(fit_problem *p, const double *theta)
     int which = -1;
 
     const double variance = variance_of(p);
+    /* The quantile that leaves half of 1 - level on either side. */
     const double t = gsl_cdf_tdist_Pinv(0.5 + 0.5 * fit->level, fit->degrees_of_freedom);
     const rb_status s = covariance(p, C, &which);
 
@@ -158,6 +164,7 @@ static void set_intervals(fit_problem *p, const double *theta)
     }
     /* the band of the fitted curve */
     for (int k = 0; k < p->points; k++) {
+        /* J_k C J_k', the variance of the curve at point k. */
         double sum = 0.0;
         const double sigma = p->data->sigma ? p->data->sigma[k] : 1.0;
         for (int i = 0; i < n; i++)
@@ -210,8 +217,8 @@ static int is_fitted(const rb_case_fit *fit, const char *name)
     return found;
 }
 
-/* What the data themselves say: the largest force, the last one, the first slope, where
- * the force is 0. */
+/* What the data themselves say: the largest force, the last one, the first slope, where the force
+ * is 0. Each number starts from the part of the measured curve that it changes most. */
 static double start_of(const fit_problem *p, const char *name)
 {
     const rb_case_data *d = p->data;
@@ -240,6 +247,7 @@ static double start_of(const fit_problem *p, const char *name)
         gsl_sort(slip, 1, (size_t)p->points);
     const double middle = slip ? slip[p->points / 2] : NAN;
     free(slip);
+    /* The first slope of Carter's law, Q/P over xi; a third body makes it less. */
     const double stiff = 2.0 * derived->radius / derived->half_width;
     return strcmp(name, "mu") == 0
                ? fmax(is_fitted(p->fit, "mu-fall") ? 0.95 * last : most, LEAST_MU)
@@ -252,6 +260,8 @@ static double start_of(const fit_problem *p, const char *name)
                                                : NAN;
 }
 
+/* Start, range, bounds and unit of a number. The start is that of the caller, else the case's own
+ * value if it was given, else the guess from the data. */
 static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
 {
     rb_case_parameter *of = &p->fit->parameter[j];
@@ -310,6 +320,8 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
     return RB_OK;
 }
 
+/* Gives the case whatever the fitted numbers need to have an effect, and refuses columns of the
+ * data that would have none. */
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
                               rb_message *why)
 {
@@ -358,6 +370,8 @@ typedef struct {
 static rb_status gauss_newton_step(const fit_problem *p, const double *theta, double squares,
                                    double *d, double *moves, rb_message *why)
 {
+    /* Columns in units of their scale, and numbers held by a bound with a column of zeros: the
+     * least-squares solution of least norm leaves these where they are. */
     const size_t points = (size_t)p->points, n = (size_t)p->n;
     rb_arena scratch = {0};
     double *J = rb_arena_doubles(&scratch, points, n), *b = rb_arena_doubles(&scratch, points, 1),
@@ -384,6 +398,7 @@ static rb_status gauss_newton_step(const fit_problem *p, const double *theta, do
             by += fit_column(p, j)[k] * d[j];
         moved += by * by;
     }
+    /* A fit without noise has the rounding of the forces as its noise. */
     *moves = sqrt(moved / fmax(variance_of(p), SAME_OF_ALL * squares / p->points));
     return rb_arena_done(&scratch, info == 0 ? RB_OK
                                    : rb_lapack_status(info) == RB_ENOMEM
@@ -401,6 +416,8 @@ static rb_status gauss_newton(fit_problem *p, progress *of, double chi2,
     rb_status s = RB_OK;
 
     for (int k = 0; s == RB_OK; k++) {
+        /* J and the residuals at theta, on elements that belong to it; then the step, halved until
+         * the sum is less. */
         double part = 1.0, least = INFINITY;
         p->fit->chi_square = chi2;
         s = rb_case_fit_move(p, theta, why);
@@ -482,6 +499,7 @@ static rb_status refuse_several(fit_problem *p, const double *theta, rb_message 
 static rb_status start_coarsely(fit_problem *p, progress *of, const rb_case_fit_observer *observer,
                                 rb_message *why)
 {
+    /* p->c is the coarse case while the search runs. */
     const rb_case *fine = p->c;
     rb_case *coarse = rb_case_copy(fine);
     double coarsely[RB_CASE_FIT_MAX];
@@ -539,6 +557,8 @@ static rb_status converge(fit_problem *p, progress *of, const rb_case_fit_observ
     int moved = 1;
     rb_status s = RB_OK;
 
+    /* A round: the minimum on the present elements, then new elements for it; it is done where
+     * these give nearly the same sum. */
     for (int round = 0; round < ROUNDS && s == RB_OK && moved && !of->several; round++) {
         s = round == 0 ? descend_first(p, theta, of->start, observer, why)
                        : rb_case_fit_descend(p, theta, observer, why);
@@ -588,6 +608,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
     double from[OTHERS][RB_CASE_FIT_MAX];
     int moved, others = 1, is_far[OTHERS] = {0};
 
+    /* The starts: the result itself, and each positive number times each of the factors. */
     memcpy(from[0], of->theta, bytes);
     for (int j = 0; j < p->n; j++)
         for (int k = 0; k < FACTORS && p->fit->parameter[j].positive &&
@@ -617,6 +638,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
         rb_status at = rb_case_fit_place(p, theta, &moved, &reason);
         if (at == RB_OK && k > 0)
             at = rb_case_fit_sum(p, theta, INFINITY, NULL, &sum, &reason);
+        /* Farther starts are worth a descent only where the sum falls towards them. */
         if (at == RB_OK && is_far[k] && !(sum < nearer))
             continue;
         nearer = sum;
@@ -626,6 +648,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
             at = rb_case_fit_sum(p, theta, INFINITY, NULL, &sum, &reason);
         if (at == RB_ENOMEM || at == RB_INTERRUPTED)
             s = rb_fail(why, at, "%s", rb_status_reason(at, &reason));
+        /* A sum that is less by a tenth is that of another minimum; less may be the mesh. */
         if (at == RB_OK &&
             (k == 0 || sum < (1.0 - SAME_ELSEWHERE) * least - SAME_OF_ALL * of->squares)) {
             least = sum;
@@ -687,6 +710,7 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
     if (data->n <= fit->n)
         return rb_refuse(why, "fit", "expected at least %d points for %d number%s, got %d",
                          fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
+    /* Memory for the points: models, residuals f (points), and J (points x n, column-major). */
     fit->degrees_of_freedom = data->n - fit->n;
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(FIT_CASES, sizeof *p.known);
@@ -705,16 +729,20 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
         s = rb_refuse(why, "fit", "creep-offset needs creepages, a column creep and no ratios");
     memcpy(of.start, of.theta, sizeof of.start);
     memcpy(given, of.theta, sizeof given);
+    /* The scale of all sums of squares: that of the forces themselves. */
     for (int k = 0; k < p.points && s == RB_OK; k++) {
         p.order[k] = k;
         of.squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
     }
+    /* 1. A start on few elements. */
     if (s == RB_OK && c->resolved.rc.contact_elements > 2 * COARSE)
         s = start_coarsely(&p, &of, observer, why);
+    /* 2. The minimum, unless friction that falls has several solutions there. */
     of.several = s == RB_OK && has_several(&p);
     if (s == RB_OK && !of.several)
         s = converge(&p, &of, observer, why);
-    /* A minimum is one if no numbers around it, near or far, have a lesser sum. */
+    /* A minimum is one if no numbers around it, near or far, have a lesser sum. 3. The search for
+     * lesser sums around it. */
     int found = !of.searched || s != RB_OK;
     for (int k = 0; k < SEARCHES && s >= 0 && s != RB_INTERRUPTED && !of.several && found; k++) {
         rb_message reason = {.text = ""};
@@ -728,11 +756,13 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
         s = rb_fail(why, RB_MAXITER,
                     "fit: not converged: numbers around the result still have a lesser sum of "
                     "squares. Give another start (--start), or fit fewer numbers");
+    /* 4. Other minima, from other starts. */
     if (s == RB_OK && !of.several && is_first)
         s = try_other_starts(&p, &of, given, observer, why);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = of.theta[j];
     fit->kappa = p.kappa;
+    /* 5. Intervals, and whether the sum is smooth enough to have them. */
     if (s == RB_OK && !of.several) {
         doubt_data(&p);
         set_intervals(&p, of.theta);

@@ -28,6 +28,8 @@ static int are_alike(const rb_case_data *d, int i, int j)
            (!d->temperature || d->temperature[i] == d->temperature[j]);
 }
 
+/* The options of a point are those of the case, with the numbers theta, and with what the row of
+ * the data says of the point itself. */
 static rb_status resolve(const place *at, double value, rb_rolling_case *rc, rb_message *why)
 {
     const fit_problem *p = at->p;
@@ -63,6 +65,8 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc, rb_me
     const double x = varied < 0 ? 0.0 : value;
     const size_t bytes = (size_t)p->n * sizeof *at->theta;
 
+    /* Cases are kept as long as theta stays; a creepage changes no other option and is set in the
+     * copy. */
     if (memcmp(p->known_for, at->theta, bytes) != 0)
         p->known_n = 0;
     memcpy(p->known_for, at->theta, bytes);
@@ -128,6 +132,8 @@ static rb_status differentiate(fit_problem *p, const double *theta, int k,
                                const rb_rolling_model *model, const rb_sensitivity *s, double *row,
                                rb_message *why)
 {
+    /* The force is a linear form of p and q, divided by P where the data are: d(Q/P) = (dQ - Q/P
+     * dP)/P. */
     const rb_contact_problem *q = &model->problem;
     const double P = rb_contact_load(q, &model->state), f = measure(p, model);
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
@@ -153,6 +159,7 @@ static rb_status differentiate(fit_problem *p, const double *theta, int k,
         double mu_rate = 0.0;
         status = rb_sensitivity_rates(s, &input, &rate, &mu_rate, why);
         if (status == RB_OK)
+            /* Adjoint times the rates of the data (D3); mu itself also scales Q/(mu P). */
             row[j] = rb_sensitivity_dot(&adjoint, &rate) - (ratio ? f / q->mu * mu_rate : 0.0);
         rb_sensitivity_rate_free(&rate);
     }
@@ -205,6 +212,8 @@ static rb_status solve_point(fit_problem *p, const double *theta, int k, int tri
         s = rb_rolling_model_add_matrix(v, why);
     if (s != RB_OK)
         return s;
+    /* First along the tangents of the solution that is followed; if its zones have changed too
+     * much, by Newton's method from its zones. */
     s = follows ? factorise(p, from, which, why) : RB_MAXITER;
     if (s == RB_OK)
         s = rb_sensitivity_follow(p->at[from].factors[which], v, why);
@@ -219,6 +228,7 @@ static rb_status solve_point(fit_problem *p, const double *theta, int k, int tri
 
 rb_status rb_case_fit_try(fit_problem *p, const double *theta, double *chi2, rb_message *why)
 {
+    /* Two sets of solutions: the accepted one and that of the present trial. */
     const int trial = p->accepted == 0;
     rb_status s = RB_OK;
 
@@ -234,6 +244,7 @@ rb_status rb_case_fit_try(fit_problem *p, const double *theta, double *chi2, rb_
 
 rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *why)
 {
+    /* The trial becomes the accepted set, and gets its Jacobian: points x n, over sigma. */
     const int trial = p->accepted == 0;
     rb_status s = RB_OK;
 
@@ -296,6 +307,8 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
 {
     rb_status s = RB_OK;
 
+    /* Elements for theta, made anew; *moved: 1 if any differ from the present ones by more than
+     * rounding. */
     *moved = 0;
     rb_case_fit_release(p, p->accepted == 0);
     rb_case_fit_release(p, p->accepted);
@@ -336,6 +349,8 @@ rb_status rb_case_fit_sum(fit_problem *p, const double *theta, double limit, dou
     const int stays = !p->moves && p->accepted >= 0, trial = p->accepted == 0;
     rb_status s = RB_OK;
 
+    /* The sum with fresh elements where they move, else on those that stay. It ends early beyond
+     * the limit, so that points which have exceeded it come first. */
     *sum = 0.0;
     if (stays)
         rb_case_fit_release(p, trial);
@@ -387,6 +402,7 @@ rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, 
         s = case_at(&at, 0.0, &rc, why);
         if (s != RB_OK)
             break;
+        /* kappa is that of the contact with constant friction, which has one solution. */
         even = rc;
         even.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
         if (!isnan(memory))
@@ -443,6 +459,7 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
         rb_sensitivity_free(s);
         rb_rolling_model_free(&own);
     }
+    /* What moving elements leave of a derivative by rounding is no derivative. */
     for (int j = 0; j < p->n && status == RB_OK; j++)
         if (rb_norm_inf((size_t)p->points, fit_column(p, j)) < NONE * p->staying[j])
             memset(fit_column(p, j), 0, (size_t)p->points * sizeof(double));

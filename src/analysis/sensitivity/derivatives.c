@@ -23,6 +23,7 @@ static double natural_scale(const rb_case *c, const rb_option *o)
                                             : 1e-2;
 }
 
+/* The number in the case as it was given: an entry of a list, or the single value. */
 static double *place_of(const rb_option *o, int entry, rb_resolved_case *words)
 {
     rb_numbers *list = (rb_numbers *)(void *)((char *)words + o->list);
@@ -87,6 +88,8 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
 static rb_status has_meaning(const rb_case *c, const rb_option *o, int entry, double value,
                              int *means)
 {
+    /* The case is resolved again with the number changed to either side: a refusal on both sides
+     * means that the number cannot be given here. */
     const double step = 1e-3 * (value != 0.0 ? fabs(value) : natural_scale(c, o));
 
     *means = 0;
@@ -106,6 +109,7 @@ static rb_status has_meaning(const rb_case *c, const rb_option *o, int entry, do
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_message *why)
 {
     *n = 0;
+    /* Each number of the table of options that the case uses and that may vary. */
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const rb_numbers *list =
             (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
@@ -121,6 +125,8 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
             const int is_own = entry > 0 ||
                                !isnan(*(double *)(void *)((char *)&words + o->offset)) ||
                                strcmp(o->name, "force") == 0;
+            /* A word such as `none` stands for a value at which there is nothing to
+             * differentiate. */
             if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) || !is_own ||
                 (o->word && value == o->word_value && o->word_value != 0.0) ||
                 (o->word && value == o->word_value && value == 0.0) || rb_case_is_replaced(c, o))
@@ -153,7 +159,9 @@ const char *const rb_case_over_x_names[RB_CASE_OVER_X_N] = {[RB_CASE_OVER_X_LOAD
                                                             [RB_CASE_OVER_X_CREEPAGE] = "creepage"};
 
 /* One adjoint solve each (D3), by the matrix of the model or, if it was solved without
- * one, of a copy. */
+ * one, of a copy.  Derivatives of P, Q, delta and xi by the gap and by the coefficient of friction
+ * of each element; over_x holds n of each kind, by gap, then by mu, for each of the four results.
+ */
 static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_model *model,
                                       rb_case_derivatives *all, rb_message *why)
 {
@@ -169,6 +177,7 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
     if ((!has_matrix && n >= RB_ROLLING_LARGE) || rb_rolling_law_depends_on_state(model->rc) ||
         all->degenerate)
         return RB_OK;
+    /* The adjoint needs J', and so the matrix; products give only J. */
     if (!has_matrix) {
         status = rb_rolling_variant_with_matrix(model, &copy, why);
         if (status == RB_OK)
@@ -181,6 +190,8 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
         status = rb_contact_state_alloc(n, &weight);
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(n, &adjoint);
+    /* The result is a linear form of p, q, delta and xi: its weights are the right side of J'
+     * (D3). */
     for (int k = 0; k < RB_CASE_OVER_X_N && status == RB_OK; k++) {
         double *by_gap = all->over_x + (size_t)(2 * k) * (size_t)n, *by_mu = by_gap + n;
         for (int i = 0; i < n; i++) {
@@ -218,7 +229,8 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
  * where there are any. */
 typedef enum { BY_NUMBERS, AND_OVER_X, SMOOTH, SMOOTH_WHERE_POSSIBLE } kind_of_derivatives;
 
-/* Derivatives with respect to one number. */
+/* Derivatives with respect to one number: it->d has both sides (D1), and where jumps of zones are
+ * known the smooth value (D8) takes their place. */
 static void differentiate_by(const rb_sensitivity *s, const rb_sensitivity_jumps *jumps,
                              kind_of_derivatives kind, const rb_case_number *number,
                              rb_case_derivative *it)
@@ -229,6 +241,7 @@ static void differentiate_by(const rb_sensitivity *s, const rb_sensitivity_jumps
     it->status = rb_sensitivity_differentiate(s, &number->input, &it->d, &it->why);
     if (it->status != RB_OK || !jumps)
         return;
+    /* (D8) has no free creepage where no edge moves; (D2) has. */
     double free_creepage[2];
     for (int side = 0; side < 2; side++)
         free_creepage[side] = it->d.value[side].free_creepage;
@@ -255,10 +268,12 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
 
     *all = (rb_case_derivatives){.of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative)),
                                  .smooth = kind == SMOOTH};
+    /* One factorisation of J serves all numbers. */
     rb_status status = number && all->of ? rb_sensitivity_create(model, 1, &s, why)
                                          : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK && kind >= SMOOTH)
         status = rb_sensitivity_jumps_create(s, &jumps, why);
+    /* Without smooth derivatives those of (D2) are taken. */
     if (status != RB_ENOMEM && s && kind == SMOOTH_WHERE_POSSIBLE)
         status = RB_OK;
     if (status == RB_OK)
@@ -320,6 +335,8 @@ rb_status rb_case_differentiate_by_tolerances(const rb_case *c, const rb_rolling
     return differentiate(c, model, SMOOTH_WHERE_POSSIBLE, t->n, name, all, why);
 }
 
+/* A derivative has the unit of the result over that of the number; those by the gap are per length
+ * of the gap, those by mu only have the unit of the result. */
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)
 {
     static const char *const unit[RB_CASE_OVER_X_N] = {"N/mm", "N/mm", "mm", NULL};
@@ -472,6 +489,8 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
     return s == RB_EINVAL ? rb_case_name_option("tolerance", s, why) : s;
 }
 
+/* Standard deviation of each result for independent inputs: the root of the sum of (slope times
+ * deviation)^2, with the mean magnitude of both sides where they differ. */
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why)
 {

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* gap, slip, bound and yield stand behind each other in one array, 4 n. */
 rb_status rb_sensitivity_rate_alloc(int n, rb_sensitivity_rate *rate)
 {
     *rate = (rb_sensitivity_rate){.n = n, .gap = rb_alloc((size_t)n, 4)};
@@ -38,6 +39,7 @@ void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem
     const rb_contact_problem *scale = &base->problem;
 
     memcpy(left->bound, p->bound, (size_t)left->n * sizeof *left->bound);
+    /* What the given values miss, in the scales of J's rows. */
     left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
                                  : (state->delta - p->delta) / scale->gap_length;
     left->tangential = p->force_given
@@ -47,6 +49,8 @@ void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem
                            : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
 }
 
+/* R of (D1): gap, slip, bound and yield stress of the variant at its present tractions, and what
+ * the given values miss. */
 rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
                                   rb_sensitivity_rate *left, rb_message *why)
 {
@@ -123,6 +127,7 @@ static rb_status check_knots(const rb_rolling_model *base, double shift, double 
             size = fmax(size, fabs(from[i]));
         }
         for (size_t i = 0; i < n && status == RB_OK; i++) {
+            /* Second differences over the step and over its half. */
             const double bend = x[i] + x[n + i] - 2.0 * from[i],
                          half = x[2 * n + i] + x[3 * n + i] - 2.0 * from[i];
             if (base->state.zone[i] != RB_ZONE_SEPARATED && fabs(bend) < 3.0 * fabs(half) &&

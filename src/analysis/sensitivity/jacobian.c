@@ -36,6 +36,8 @@ static double sign_of(int zone)
     return zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? -1.0 : 1.0;
 }
 
+/* J is size x size, column-major, size = 2 m + 2 for m elements in contact. Unknowns: p of them,
+ * delta, q of them, xi. Rows: gaps, P or delta, stick, slip or yield, Q or xi. */
 static rb_sensitivity_factors *factors_alloc(int n, const int *zone)
 {
     rb_sensitivity_factors *f = calloc(1, sizeof *f);
@@ -70,6 +72,8 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
+    /* r_T = sign bound(v) r_N: its derivative by a slip is sign r_N dbound/dv, on the left side
+     * with a minus (D1, F1). */
     const double friction = sign_of(zone[i]) * s->model->state.p[i];
 
     memset(weight, 0, n * sizeof *weight);
@@ -88,6 +92,8 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
         return;
     double now = -sign_of(zone[i]) * p->hardening, next = 0.0;
     for (int j = i; j < s->n; j++) { /* u_i in those upstream of it */
+        /* u is transported from element to element by `recall` (Y1); where the surfaces slip, too,
+         * mu p fixes u, and the chain ends. */
         const int ends = slides(zone[j]) && rb_contact_slips_and_yields(p, &s->model->state, j);
         const double after = (ends ? 0.0 : p->recall[0] * now) + next;
         if (ends)
@@ -108,6 +114,7 @@ static void add_slips(const rb_sensitivity *s, const rb_sensitivity_factors *f, 
     const size_t n = (size_t)s->n, ld = (size_t)f->size;
     const int some = to - from;
 
+    /* S = A F_T of (K2), whose first n columns belong to p and whose last n to q; e_T to xi. */
     for (int c = 0; c < f->contacts; c++) {
         const double *by_p = K.S + from + (size_t)f->contact[c] * n, *by_q = by_p + n * n;
         double *of_p = r + (size_t)c * ld, *of_q = r + (size_t)(f->contacts + 1 + c) * ld;
@@ -131,6 +138,7 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
         add_slips(s, f, i, i + 1, &(double){1.0}, tangential);
         return;
     }
+    /* q - sign bound p = 0 of an element that slides. */
     tangential[(size_t)(m + 1 + c) * ld] = 1.0;
     if (slides(zone))
         tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
@@ -188,6 +196,7 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
 
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c];
+        /* Q less the given part of what friction carries. */
         const double carried = share + p->force_ratio * p->bound[i];
         double *of_p = tangential + (size_t)c * ld, *of_q = of_p + (size_t)(m + 1) * ld;
         if (p->load_given) {
@@ -259,6 +268,7 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
         free(scratch);
         return RB_ENOMEM;
     }
+    /* Rows and columns are scaled to order one: unknown and row are the units. */
     const int m = f->contacts, size = f->size;
     /* the normal equations alone determine p and delta where friction does not change
      * them */
@@ -276,6 +286,7 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
     fill_controls(s, f);
     free(scratch);
     const int is_known = like && takes_first_block(s, like, f);
+    /* The gap rows: F_NN, -1 for delta, F_NT; xi does not enter. */
     for (int j = 0; j < (is_known ? 0 : k); j++) {
         const int of_q = j > m;
         double *gap = f->J + (size_t)j * (size_t)size;
@@ -293,6 +304,8 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
         is_known
             ? RB_OK
             : rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, k, k, f->J, size, f->pivot));
+    /* J is block triangular where friction does not act on the pressure: two smaller
+     * factorisations. */
     if (status == RB_OK && rest > 0)
         status = rb_lapack_status(LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rest, rest,
                                                       f->J + (size_t)k * (size_t)(size + 1), size,
@@ -331,6 +344,7 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
 
     if (!x)
         return RB_ENOMEM;
+    /* The right side -R' of (D2). */
     for (int c = 0; c < m; c++) {
         const int i = f->contact[c], zone = f->zone[i];
         x[c] = -rate->gap[i] * f->row[c];
@@ -354,6 +368,8 @@ rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_f
     return status;
 }
 
+/* The rates of a linear form of the solution by each of the data: J' x = weight, and -x are the
+ * factors of gap, slip, bounds and given values (D3). */
 rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
                                  rb_sensitivity_rate *adjoint, rb_message *why)
 {

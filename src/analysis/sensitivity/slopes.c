@@ -65,6 +65,7 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
     return found ? RB_OK : rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", input);
 }
 
+/* words: results, or RESULT:OPTION, separated by commas; `most` columns at most. */
 rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
                                 const char *words, int most, rb_case_slopes *s, rb_message *why)
 {
@@ -105,6 +106,7 @@ rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance,
     return status;
 }
 
+/* rows x n pairs (left, right), all unknown. */
 rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *s)
 {
     const size_t all = 2 * (size_t)rows * (size_t)s->n;
@@ -130,6 +132,7 @@ double rb_case_slope_value(const rb_case_slopes *s, int row, int k)
     return isnan(both[1]) ? both[0] : both[1];
 }
 
+/* The unit of the result over that of the number. */
 double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x)
 {
     const char *unit = of->result->unit ? of->result->unit : "1";
@@ -164,6 +167,7 @@ int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
     const int without = steps_without(s);
 
     note->text[0] = '\0';
+    /* One sentence for all rows: on which elements, how many rows have none, and why. */
     if (s->stay)
         rb_append(note->text, size, "derivatives are those on elements that do not move");
     if (s->without > 0)
@@ -249,6 +253,8 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
             if (of->status != RB_OK || strcmp(of->name, s->of[k].input) != 0)
                 continue;
             for (int side = 0; side < 2; side++) {
+                /* One side, where no element stands between two zones: both entries of the pair are
+                 * the same. */
                 const int from = of->d.sides == 1 ? 0 : side;
                 if (of->d.has[from])
                     row[2 * k + side] = rb_rolling_number(s->of[k].result, &of->d.value[from]);
@@ -262,6 +268,7 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
     return status;
 }
 
+/* One row of a study: the derivatives, then the standard deviations; NAN where there are none. */
 rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
                              const rb_case_slopes *s, double *row, rb_message *why)
 {
@@ -379,6 +386,8 @@ static rb_status deviations_alloc(const rb_case *c, int points, rb_rolling_curve
     return RB_OK;
 }
 
+/* The observer of a curve: derivatives and deviations of point k, by the model that has just been
+ * solved there. */
 static rb_status see_point(const rb_rolling_model *model, int k, void *context, rb_message *why)
 {
     const curve_slopes *of = context;

@@ -89,7 +89,8 @@ static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
     return s;
 }
 
-/* Free v in any case. */
+/* The four histories at values beside the number, with the longest step for which the elements stay
+ * on their sides of the contact.  Free v in any case. */
 static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_rolling_follower *base,
                       varied *v, rb_message *why)
 {
@@ -107,6 +108,8 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_roll
         s = RB_ENOMEM;
     if (s != RB_OK)
         return s;
+    /* A change of bodies is known to fewer digits than one of the right side, and needs a longer
+     * step. */
     v->step = RB_SENSITIVITY_STEP_OF_BODIES * input->scale;
     const rb_sensitivity_stencil *stencil = rb_sensitivity_stencil_of(input, v->step);
     if (stencil)
@@ -151,6 +154,8 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
 {
     const int holds = !base->problem.force_given;
 
+    /* rate sums the four left sides with the weights of the stencil: -R' of (D2), to fourth
+     * order. */
     memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
     v->rate.normal = v->rate.tangential = 0.0;
     for (int k = 0; k < v->of.n; k++) {
@@ -159,6 +164,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
 
         if (status != RB_OK)
             return status;
+        /* An equation for the force where the base has none would be another system. */
         if (holds)
             at->problem.force_given = 0;
         rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
@@ -205,6 +211,8 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
     rb_rolling_model *model = rb_rolling_follower_model(base);
 
     for (int step = 0; step < states->steps;) {
+        /* A step of the base history: its state is the given one at the end of a row, and is solved
+         * inside. */
         rb_sensitivity *s = NULL;
         rb_message reason = {.text = ""};
         rb_status status = rb_rolling_follower_begin(base, &reason);
@@ -243,6 +251,8 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         if (status == RB_OK)
             slopes->degenerate += ends_row && rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
+            /* Each number moves its four histories along its own tangent, so that the next step
+             * starts from there. */
             status = rb_interrupted() ? rb_fail(why, RB_INTERRUPTED,
                                                 "derivatives: interrupted after step %d of %d",
                                                 step, states->steps)
@@ -292,6 +302,8 @@ static double slope_of(const varied *v, const allowed *can, const rb_rolling_res
         at = rb_rolling_entry(r, rb_rolling_follower_history(v->at[i]), row);
         sum += v->of.weight[i] / v->step * at;
     }
+    /* Edges and peaks jump from element to element; their derivatives are those at the elements
+     * that have them. */
     sum = r->offset == offsetof(rb_rolling_history, contact_from)      ? picked->contact_from
           : r->offset == offsetof(rb_rolling_history, contact_to)      ? picked->contact_to
           : r->offset == offsetof(rb_rolling_history, max_pressure)    ? picked->max_pressure
@@ -352,6 +364,8 @@ rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
     return elements_are_steps(rc) ? RB_OK : check_elements(rc->contact_elements, why);
 }
 
+/* Derivatives and deviations of every row: of the base history and of four others per number,
+ * followed side by side. */
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *s, const rb_case_tolerances *t,
                                   rb_rolling_history *history, rb_message *why)

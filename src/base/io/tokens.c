@@ -12,6 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
+/* Only the first mistake is kept: what comes after it may follow from it. */
 void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
 {
     if (t->status != RB_OK)
@@ -29,6 +30,7 @@ void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
     const int given = !strcmp(path, "-");
     size_t size;
     *t = (io_tokens){.path = path, .line = 1, .why = why};
+    /* The whole file is in memory, so that a token never ends in the middle of a buffer. */
     t->status = rb_io_read_text(given ? "/dev/stdin" : path, &t->text, &size, why);
     if (given)
         t->path = "standard input";
@@ -63,6 +65,8 @@ static size_t peek(io_tokens *t)
     return (size_t)(p - t->at);
 }
 
+/* length: of the token that stands there, at most 40 characters of which are shown; 0: the file
+ * ends. */
 static void expected(io_tokens *t, const char *what, const char *wanted, size_t length)
 {
     if (length)
@@ -86,6 +90,7 @@ int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
         return (int)value;
     }
     char wanted[60];
+    /* What was expected, in words: one number, a least one, or a range. */
     if (low == high)
         snprintf(wanted, sizeof wanted, "%d", low);
     else if (high == INT_MAX)
@@ -116,6 +121,8 @@ double rb_io_tokens_real(io_tokens *t, const char *what)
     return 0.0;
 }
 
+/* Most of a large file is read here: numbers are recognised in place, and only one that is not gets
+ * a name for the message. */
 void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what)
 {
     for (size_t i = 0; i < n && t->status == RB_OK; i++) {
@@ -143,6 +150,7 @@ void rb_io_tokens_word(io_tokens *t, const char *word)
         expected(t, "sparse matrix", word, length);
 }
 
+/* 1: the next token is this word, in capitals or not, and has been taken. */
 int rb_io_tokens_take(io_tokens *t, const char *word)
 {
     const size_t length = t->status == RB_OK ? peek(t) : 0;
@@ -157,6 +165,7 @@ int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *wh
 {
     if (t->status != RB_OK)
         return 0;
+    /* Compared by a division, because rows times cols of a broken file may overflow. */
     const size_t most = ((size_t)(t->end - t->at) + 1) / 2;
     if (cols == 0 || rows <= most / cols)
         return 1;
@@ -203,6 +212,7 @@ void rb_io_tokens_rewind(io_tokens *t)
     t->line = 1;
 }
 
+/* Blanks keep the line numbers and places of everything else. */
 void rb_io_tokens_blank_comments(io_tokens *t)
 {
     if (!t->text)

@@ -75,6 +75,8 @@ static rb_status guess_zones(prover *p, const double *given)
     for (int c = 0; s == RB_OK && c < p->nc; c++) {
         double *r = p->r + c * p->d;
         const double *u = p->u + c * p->d, a = fmax(rb_sparse_diagonal(p->W, c * p->d), PROOF_TINY);
+        /* W_NN r_N and u_N are velocities: the larger one says whether the contact is closed, and
+         * likewise whether it slips. */
         if (r[0] * a <= fmax(u[0], 0.0) || !(r[0] > 0.0))
             p->zone[c] = SEPARATED;
         else if (p->mu[c] == 0.0)
@@ -119,6 +121,7 @@ static rb_status pose(prover *p)
     p->A = rb_alloc(n, n + 3);
     if (!p->A)
         return RB_ENOMEM;
+    /* Rows and columns of W that belong to active equations; the rest of r is zero. */
     p->b = p->A + n * n;
     p->x = p->b + n;
     p->rho = p->x + n;
@@ -135,6 +138,8 @@ static rb_status pose(prover *p)
     for (int c = 0; c < p->nc; c++) {
         if (p->zone[c] != SLIP)
             continue;
+        /* In the plane slip is linear; in space sigma is another unknown, |u_T|/|r_T| to begin
+         * with. */
         const size_t N = (size_t)p->place[c * d], T = N + 1;
         if (d == 2) { /* r_T + s mu r_N = 0 in the row of u_T */
             for (size_t j = 0; j < n; j++)
@@ -238,9 +243,11 @@ static int krawczyk(prover *p, const proof_inverse *v, const double *f, double *
 {
     const size_t n = (size_t)p->n;
     double *y = work, *h = y + n, *quad = h + n, *K = quad + n, *rho = p->rho;
+    /* h: the residual with its rounding, in the scaled rows of the inverse; y = |R| h. */
     for (size_t i = 0; i < n; i++)
         h[i] = ldexp(f[i], v->row[i]) + PROOF_TINY;
     rb_proof_abs_product(p->n, p->n, v->R, p->n, h, y);
+    /* Each turn tries 1.5 times the last K, until K lies inside what it was made from. */
     memset(rho, 0, n * sizeof *rho);
     for (int turn = 0; turn < INFLATIONS; turn++) {
         const double most = rb_norm_inf(n, rho);
@@ -282,6 +289,7 @@ static rb_status solve_active_equations(prover *p, rb_friction_proof *proof)
         free(J);
         return rb_arena_done(&scratch, RB_ENOMEM);
     }
+    /* An approximate inverse R with a proved bound of |I - R A|: below one, A is regular. */
     proof_inverse inverse;
     proof->reason = "the matrix of the active equations is not proved to be regular";
     if (quadratic && !refine(p, J, pivot, f, f + n)) {
@@ -342,6 +350,7 @@ static rb_status judge(prover *p, rb_friction_proof *proof)
         p->e[i] = p->place[i] >= 0 ? p->rho[p->place[i]] : 0.0;
     }
     rb_status s = velocities(p, p->r, p->u, p->eu, p->size);
+    /* u of r within its bounds: the errors e go through |W|. */
     double *through = p->size;
     memset(through, 0, (size_t)p->m * sizeof *through);
     for (int j = 0; s == RB_OK && j < p->m; j++)
@@ -366,6 +375,7 @@ static rb_status judge(prover *p, rb_friction_proof *proof)
         else
             require(proof, r[0], e[0], &normal);
         if (before == STICK) {
+            /* |r_T| + its error against mu (r_N - its error), with the rounding of both sides. */
             double squares = 0.0;
             for (int k = 1; k < d; k++)
                 squares += (fabs(r[k]) + e[k]) * (fabs(r[k]) + e[k]);
@@ -377,6 +387,7 @@ static rb_status judge(prover *p, rb_friction_proof *proof)
             require(proof, p->x[p->slides[c]], p->rho[p->slides[c]], &tangential);
         if (normal && tangential)
             continue;
+        /* The zone that the wrong sign points to, for the next attempt. */
         p->zone[c] = before == SEPARATED ? (p->mu[c] > 0.0 ? STICK : SMOOTH)
                      : !normal           ? SEPARATED
                      : before == STICK   ? SLIP
@@ -400,6 +411,7 @@ static rb_status nearby(prover *p, double *eps)
         const double *r = p->r + at, *u = p->u + at, bound = p->mu[c] * r[0],
                      t = rb_friction_tangential(p->d, r);
         double need[3] = {0.0}, sigma = 0.0;
+        /* By how much u_N, and u_T along its direction, miss the condition of the zone. */
         need[0] = p->zone[c] == SEPARATED ? fmax(0.0, p->eu[at] - u[0]) : fabs(u[0]) + p->eu[at];
         if (p->zone[c] == SLIP ||
             (p->zone[c] == STICK && t * (1.0 + 8.0 * PROOF_U) > bound * (1.0 - 8.0 * PROOF_U)))

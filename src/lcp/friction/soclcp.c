@@ -24,6 +24,7 @@ typedef struct {
     double flops;
 } canonical;
 
+/* y in units of x, unit (M x + q) + eps x: eps x is the regularisation. */
 static void image(canonical *c, double eps, const double *x, double *y)
 {
     const int n = c->p->n;
@@ -53,7 +54,8 @@ static void canonical_residual(void *context, double mu, double eps, const doubl
         *gap = least;
 }
 
-/* (I - D) + D (M + eps I), cone by cone */
+/* The Newton step dx = -J^-1 H of the regularised problem, J = (I - D) + D (M + eps I) cone by
+ * cone. */
 static rb_status canonical_step(void *context, double mu, double eps, const double *x,
                                 const double *H, double *dx)
 {
@@ -137,6 +139,7 @@ rb_status rb_friction_solve_soclcp(const rb_friction_soclcp_problem *p,
                                    const rb_friction_options *opt, double *x, double *y,
                                    rb_friction_info *info)
 {
+    /* 1. The cones have to be a partition of the n entries, and all numbers finite. */
     const double start = rb_seconds();
     const rb_friction_options used = opt ? *opt : rb_friction_defaults();
     int largest = 0, sum = 0;
@@ -163,7 +166,8 @@ rb_status rb_friction_solve_soclcp(const rb_friction_soclcp_problem *p,
     for (int i = 0; i < p->n; i++)
         if (!isfinite(p->q[i]))
             return rb_fail(why, RB_EINVAL, "q: entry %d is %g", i + 1, p->q[i]);
-    /* The inverse of the mean of M's diagonal */
+    /* 2. A unit for y: the inverse of the mean of M's diagonal; Acary's measure keeps the given
+     * one. */
     double trace = 0.0;
     for (size_t i = 0; i < (size_t)p->n; i++)
         trace += fabs(p->M[i + i * (size_t)p->n]);
@@ -187,6 +191,7 @@ rb_status rb_friction_solve_soclcp(const rb_friction_soclcp_problem *p,
                                                .step = canonical_step,
                                                .accepts = canonical_accepts,
                                                .late = canonical_late};
+    /* 3. Smoothing from the start, then the errors from x alone. */
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
     rb_status s = RB_ENOMEM;
@@ -248,6 +253,8 @@ static void first_cone(const friction *f, int c, double eps, const double *z, do
     }
 }
 
+/* H: per contact d rows of the first cone and one of the half-line, then the n rows of the balance
+ * of the global form. */
 static void friction_residual(void *context, double mu, double eps, const double *z, double *H,
                               double *gap)
 {
@@ -307,6 +314,7 @@ static rb_status friction_step(void *context, double mu, double eps, const doubl
             keep[2 + d + b] = b ? rho * Q[b * d] : 0.0;
         }
         for (int a = 1; a < d; a++) {
+            /* Gauss elimination of dlambda from the other rows of the contact. */
             const double g = Q[a] / Q[0];
             F[a] = h[a] - g * h[0];
             for (int b = 0; b < d; b++) {

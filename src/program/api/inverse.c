@@ -33,6 +33,7 @@ static rb_status check(const rb_option *o, double value, rb_message *why)
                          rb_option_expected(o, expected, sizeof expected), value);
 }
 
+/* An array of the handle; those of one call begin with "fit." or "design.". */
 static rb_status keep(rb_api *a, const char *name, int rows, int columns, const double *x)
 {
     return rb_api_copy_array(a, name, rows, columns, x) ? RB_OK : RB_ENOMEM;
@@ -50,6 +51,7 @@ static rb_status keep_text(char **kept, const char *text)
 
 /* ---- Fits -------------------------------------------------------------------------- */
 
+/* Called after each step of a fit: shows how far it is, and passes on a stop. */
 static int see_step(int iteration, double chi_square, int n, const double *value, void *context)
 {
     (void)chi_square, (void)n, (void)value;
@@ -72,6 +74,7 @@ static rb_status keep_parameters(rb_api *a, const rb_case_fit *fit, rb_units uni
     for (int j = 0; j < n; j++) {
         const rb_case_parameter *p = &fit->parameter[j];
         const double of[] = {p->value, p->interval[0], p->interval[1], p->deviation, p->mesh};
+        /* Without a solution the last numbers are shown, without intervals. */
         for (int k = VALUE; k <= MESH; k++)
             x[k][j] = (solved && p->identified) || (!solved && k == VALUE)
                           ? rb_unit_shown(units, p->unit, of[k])
@@ -86,6 +89,7 @@ static rb_status keep_parameters(rb_api *a, const rb_case_fit *fit, rb_units uni
     return s == RB_OK ? keep(a, "fit.correlation", n, n, correlation) : s;
 }
 
+/* The measured curve, the fitted one and its band, n points each; creepages have no unit. */
 static rb_status keep_points(rb_api *a, const rb_case_data *d, const rb_case_fit *fit,
                              rb_units units)
 {
@@ -106,6 +110,8 @@ static rb_status keep_points(rb_api *a, const rb_case_data *d, const rb_case_fit
     return s;
 }
 
+/* Numbers of the whole fit; the noise has the unit of the forces unless deviations are given, of
+ * which it is a multiple. */
 static rb_status keep_fit(rb_api *a, const rb_case_data *d, const rb_case_fit *fit, rb_units units)
 {
     const struct {
@@ -144,6 +150,8 @@ static int fit_table(rb_api *a, const char *path, rb_io_table *t, const rb_case_
         s = check(&of_level, level, &a->why);
     if (s == RB_OK && !isnan(w->sigma))
         s = check(&of_sigma, w->sigma, &a->why);
+    /* The table and the words are read first: they may change the case, which is resolved
+     * afterwards. */
     if (s == RB_OK)
         s = rb_case_fit_read(c, w, path, t, &data, &fit, &a->why);
     if (s == RB_OK)
@@ -172,6 +180,8 @@ int rb_api_fit(rb_api *a, int columns, const char *const *column, int rows, cons
     if (rows < 1 || columns < 1)
         return rb_api_refuse(a, "data: %d rows and %d columns", rows, columns);
     const size_t n = (size_t)rows * (size_t)columns;
+    /* A table as if it had been read from a file: names of columns, and the numbers column by
+     * column. */
     t.x = rb_alloc((size_t)rows, (size_t)columns);
     t.name = calloc((size_t)columns, sizeof *t.name);
     int full = t.x && t.name;
@@ -241,6 +251,8 @@ static rb_status keep_design(rb_api *a, const rb_design *d, rb_units units)
 
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers && s == RB_OK; k++)
         s = keep(a, numbers[k].name, 1, 1, &numbers[k].value);
+    /* Each variable where the search ended and where it began; constraints x 3: at least or at
+     * most, bound, value. */
     api_array *value = s == RB_OK ? rb_api_make_array(a, "design.value", d->n, 1) : NULL;
     api_array *start = value ? rb_api_make_array(a, "design.start", d->n, 1) : NULL;
     api_array *of = NULL, *x = NULL;
@@ -279,6 +291,7 @@ int rb_api_design(rb_api *a, const char *result, int largest, const char *over, 
         s = check(&most, evaluations, &a->why);
     if (s == RB_OK && !isnan(span))
         s = check(&width, span, &a->why);
+    /* Lengths of the caller are in the units of the case, which are known once it is resolved. */
     if (s == RB_OK)
         s = rb_case_resolve(c, &a->why);
     if (s == RB_OK) {

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Every call forgets the arrays, notes and numbers of the call of its kind before it. */
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
@@ -30,6 +31,7 @@ int rb_api_prove_problems(rb_api *a, int yes)
     return rb_api_ended(a, RB_OK);
 }
 
+/* The array "what.name" of n numbers. */
 static rb_status keep_numbers(rb_api *a, const char *what, const char *name, int n, const double *x)
 {
     char text[40];
@@ -108,6 +110,7 @@ static int nothing_is_unknown(rb_api *a)
     return rb_api_ended(a, RB_OK);
 }
 
+/* M in compressed columns is borrowed for the call; z and w become arrays of the handle. */
 int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double *x,
                       const double *q, const double *lower, const double *upper,
                       const double *start, const char *solver, int max_pivots, double seconds)
@@ -138,6 +141,7 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
         return rb_api_ended(a, RB_ENOMEM);
     rb_api_call_begins(a);
     s = rb_lcp_solve(solver, &problem, &options, z->at, &info);
+    /* The residual is recomputed from z, also of an iterate that is no solution. */
     if (s >= 0)
         a->residual = rb_lcp_residual_mixed(&problem, z->at, w->at);
     a->why = info.msg;
@@ -154,6 +158,7 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     return rb_api_ended(a, s);
 }
 
+/* By way of compressed columns: the solvers look at the structure of M by themselves. */
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots)
 {
@@ -196,6 +201,8 @@ static rb_status keep_all(rb_api *a, const char *what, const rb_lcp_solutions *a
     return RB_OK;
 }
 
+/* All solutions, and with proofs how many there are: `least` are proved to exist, `most` not to be
+ * exceeded. */
 int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const double *lower,
                    const double *upper, double seconds)
 {
@@ -229,6 +236,8 @@ int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const dou
     return rb_api_ended(a, s);
 }
 
+/* One equilibrium by Lemke and Howson's path, or all extreme ones. z: probabilities of both
+ * players, m + n; regret: what each pure strategy loses against the other player's. */
 int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all_of_it,
                 int max_pivots, double seconds)
 {
@@ -276,6 +285,7 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
 
 /* ---- Friction ---------------------------------------------------------------------- */
 
+/* r and u, d x contacts, and a copy of mu, which proofs and pictures need beside them. */
 static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const char *solver,
                                 double tol, int max_iters)
 {
@@ -336,6 +346,7 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
                                    .mu = rb_alloc((size_t)contacts, 1)};
     rb_sparse borrowed;
     rb_status s = (p || problem.W) && problem.q && problem.mu ? RB_OK : RB_ENOMEM;
+    /* The rows and columns of a matrix of the caller are checked before they are followed. */
     if (s == RB_OK && p)
         s = borrow((int)m, p, i, x, &borrowed, &a->why);
     if (s == RB_OK && p)
@@ -383,6 +394,7 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 
 /* ---- Many cases -------------------------------------------------------------------- */
 
+/* A study: worker processes solve the cases, and this process gets the rows. */
 typedef struct {
     rb_api *a;
     rb_api *const *cases;

@@ -132,6 +132,7 @@ static void free_result(lcp_result *r)
     free(r->w);
 }
 
+/* One file: solved, and printed as one row, or with a row per pivot or per unknown. */
 static cli_exit solve_file(void *context, const char *path)
 {
     lcp_run *run = context;
@@ -143,6 +144,7 @@ static cli_exit solve_file(void *context, const char *path)
                     .solutions = 1};
     run->file = path;
     run->pivots = (cli_rows){.is_json = 1, .list = json_array()};
+    /* Rows of a trace are progress enough. */
     if (!run->o->trace)
         cli_wait_begin();
     const cli_exit code = run->o->game ? cli_lcp_solve_game(run, &r) : cli_lcp_solve(run, &r);
@@ -152,6 +154,8 @@ static cli_exit solve_file(void *context, const char *path)
     char proof[60] = "-";
     if (r.proof.n)
         rb_report_proof_status(&r.proof, proof, sizeof proof);
+    /* One list of values for both forms: the first name is that in JSON, the second one that of the
+     * column; NULL: not there. */
     const cli_value values[] = {
         CLI_TEXT("file", "file", r.file),
         CLI_TEXT("solver", "solver", r.solver),
@@ -220,6 +224,7 @@ int cli_lcp(int argc, char **argv)
                            .notes = notes,
                            .sets = {{options, OPTIONS, &o, NULL, NULL}},
                            .set_n = 1};
+    /* Everything about the command line is refused before the first file is read. */
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
@@ -230,6 +235,7 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
+        /* The headings depend on what a row is: a pivot, an unknown or a file. */
         char columns[120];
         snprintf(columns, sizeof columns, "%s%s%s",
                  o.trace      ? "file pivot entering leaving row ratio z0"

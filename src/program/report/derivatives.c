@@ -19,6 +19,8 @@ static void add_result(const rb_rolling_result *r, int is_column, rb_report_deri
     }
 }
 
+/* names: "all", or results separated by commas, of which a name without a derivative is a
+ * mistake. */
 rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
                                    rb_report_derivatives *d, rb_message *why)
 {
@@ -50,6 +52,7 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
 
 /* ---- JSON -------------------------------------------------------------------------- */
 
+/* A number, or a list of the entries of a column; null: this side does not exist. */
 static json_t *one_side(const rb_rolling_result *r, int is_column, const rb_case_derivative *of,
                         int side)
 {
@@ -92,6 +95,8 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
                 const rb_case_derivative *of = &d->all->of[i];
                 if (of->status != RB_OK)
                     continue;
+                /* A result is one number where both sides agree, [left, right] where they
+                 * differ. */
                 json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
                 const int two = of->d.sides == 2;
                 json_t *right = two ? one_side(d->result[k], d->is_column[k], of, 1) : NULL;
@@ -115,6 +120,7 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
         if (d->all->of[i].status != RB_OK)
             rb_report_json_set(&without, d->all->of[i].name, json_string(d->all->of[i].why.text));
     rb_report_json_set(root, "without_derivatives", without);
+    /* over_x has, for each of its results in turn, n derivatives by the gap and n by mu. */
     for (int k = 0; k < RB_CASE_OVER_X_N && d->all->n_x > 0; k++) {
         const int n = d->all->n_x;
         const double *gap = d->all->over_x + 2 * k * n;
@@ -152,6 +158,8 @@ void rb_report_json_asked(json_t **root, const char *names, const rb_case *c)
 
     if (names)
         rb_report_json_set(root, "derivatives_of", rb_report_json_text(names));
+    /* Numbers of B that were given, and equal A's: without this list, whoever varies A's would vary
+     * B's, too. */
     json_object_foreach(inputs, key, value)
     {
         char of_a[80];
@@ -226,6 +234,7 @@ static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative 
             r.side[1] = r.side[0];
         if (isnan(r.side[0]) && isnan(r.side[1]))
             continue;
+        /* For a growing input; 0.0 + x is never -0. */
         r.one = 0.0 + 0.01 * of->value * (isnan(r.side[1]) ? r.side[0] : r.side[1]);
         row[n++] = r;
     }
@@ -258,6 +267,8 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     if (noted != RB_OK)
         return noted;
     for (int k = 0; k < d->n; k++)
+        /* A row per input, and of columns per element and input; the largest change stands
+         * first. */
         for (int e = 0; has_result(d, k) && e < (d->is_column[k] ? s->n : 1); e++) {
             const int entry = d->is_column[k] ? e : -1;
             const int n = rows_of(d, k, entry, row);
@@ -307,6 +318,7 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_repo
         const double deviation = rb_rolling_number(r, &d->deviation);
         const char *unit = rb_report_unit_name(s->units, r->unit);
         const int plain = strcmp(unit, "1") == 0;
+        /* What the uncertain inputs do not change is left out. */
         if (rb_sensitivity_has(r) && deviation > 0.0)
             fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name, rb_rolling_number(r, s) + 0.0,
                     deviation, /* + 0.0: no -0 */
@@ -387,6 +399,7 @@ void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 
             for (int i = k; i < s->n; i++) {
                 json_t *list = json_array();
+                /* Pairs (left, right) of each row; one number where both are equal. */
                 for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result; row++) {
                     const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)i);
                     const int same = both[0] == both[1] || (isnan(both[0]) && isnan(both[1]));

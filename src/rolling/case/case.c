@@ -7,6 +7,8 @@
 
 #include <gsl/gsl_math.h>
 
+/* The case of *Addi* (theory.md 7): what the paper leaves open has the values stated there. NAN:
+ * not given. */
 rb_rolling_case rb_rolling_case_defaults(void)
 {
     const rb_rolling_body body = {.young = 94500.0,
@@ -92,6 +94,7 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     rb_status s;
     int terms = 0;
 
+    /* The terms of (V1) of each body that is elastic. */
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         if (memory[b]->n < 0 || memory[b]->n > RB_ROLLING_TERMS)
             return rb_refuse(why, "relaxation-time,relaxation-time-b",
@@ -157,6 +160,7 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
         return rb_refuse(why, "temperature-b,temperature",
                          "in transient rolling both bodies must have the "
                          "same temperature");
+    /* Equal bodies share the heat equally; others need a full matrix in the contact (T2). */
     const int unlike = b->conductivity > 0.0 &&
                        (a->conductivity != b->conductivity ||
                         a->heat_capacity != b->heat_capacity || a->temperature != b->temperature);
@@ -185,6 +189,7 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(
             why, RB_EINVAL,
             "approach, load, half-width, max-pressure and wheel-load exclude each other");
+    /* A half-width is one of Hertz's parabola, which no circle has beyond its radius. */
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
         return rb_refuse(why, "half-width",
@@ -194,6 +199,7 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* One tangential condition: a shift at rest, a creepage or a force in rolling. */
 static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
 {
     const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force, rc->force_ratio};
@@ -234,6 +240,7 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 && rc->force_ratio != 0.0)
         return rb_refuse(why, "force-ratio", "%g: Q/(mu P) has no meaning at mu = 0",
                          rc->force_ratio);
+    /* NAN where the load follows from the approach only after the solution. */
     const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
     /* a coefficient that differs from place to place or falls, or an interface that yields,
      * carries less: the solver knows */
@@ -245,6 +252,7 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* (Y1): Coulomb's law and the yield stress of the third body bound friction together. */
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
@@ -444,6 +452,8 @@ static int has_rigid_base(const rb_rolling_body *body)
     return body->layer > 0.0 && body->base_young == 0.0;
 }
 
+/* The mean of a periodic pressure moves a half-plane as a whole; only a layer on a rigid base is
+ * compressed by it (P1). */
 int rb_rolling_mean_compresses(const rb_rolling_case *rc)
 {
     return has_rigid_base(&rc->a) || (rc->elastic_b && has_rigid_base(&rc->b));
@@ -454,6 +464,7 @@ static int holds_friction(const rb_rolling_body *body)
     return has_rigid_base(body) && body->layer_base != RB_BASE_SMOOTH;
 }
 
+/* And only if that layer is bonded does the mean of the friction shear it. */
 int rb_rolling_mean_shears(const rb_rolling_case *rc)
 {
     return holds_friction(&rc->a) || (rc->elastic_b && holds_friction(&rc->b));
@@ -466,6 +477,7 @@ static double mean_gap(const rb_rolling_case *rc)
     double from, to, sum = 0.0;
 
     if (rc->gap != RB_GAP_TABLE)
+        /* The means of D (1 - cos(2 pi x/L)) and of x^2/(2R) over |x| < L/2. */
         return rc->gap == RB_GAP_WAVE ? rc->amplitude
                                       : gsl_pow_2(rc->period) / (24.0 * rb_rolling_radius(rc));
     rb_rolling_profile_range(rc->profile, &from, &to);
@@ -664,6 +676,8 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* Ranges first, then what each body needs, then what goes together; the order decides which of
+ * several mistakes is named. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {

@@ -14,6 +14,7 @@
 
 /* ---- Making one -------------------------------------------------------------------- */
 
+/* The case without any option: numbers that follow from others are NAN, "not given". */
 static rb_resolved_case default_words(rb_case_purpose purpose)
 {
     rb_resolved_case words = {.rc = rb_rolling_case_defaults(),
@@ -56,6 +57,7 @@ void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find)
     c->find_cone_solver = find;
 }
 
+/* A copy borrows the tables that have been read from files, and the texts. */
 rb_case *rb_case_copy(const rb_case *c)
 {
     rb_case *copy = malloc(sizeof *copy);
@@ -81,6 +83,7 @@ void rb_case_free(rb_case *c)
     free(c);
 }
 
+/* Options of kind text point to what the caller gave: a copy that lives as long as the case. */
 const char *rb_case_keep(rb_case *c, const char *text)
 {
     char **kept = realloc(c->text, sizeof *kept * (size_t)(c->texts + 1));
@@ -190,6 +193,7 @@ static rb_status count_numbers(const rb_case *c, const char *name, const rb_numb
     return rb_case_refuse_given(c, name, reason, why);
 }
 
+/* The numbers of a friction law, from the lists of its options into rc.friction (F1, F2). */
 static rb_status resolve_law(rb_case *c, rb_message *why)
 {
     const rb_case_law *typed = &c->resolved.law;
@@ -262,6 +266,8 @@ static rb_status follow_tables(rb_case *c, rb_message *why)
 
     if (rb_case_given(c, "contact-elements"))
         return RB_OK;
+    /* Fitted elements would need a dense matrix: where aligned ones go with transforms, these
+     * follow finer tables. */
     rb_status s = rb_rolling_elements_for_tables(rc, n, &n);
     rb_rolling_case equal = *rc;
     equal.mesh = RB_MESH_ALIGNED;
@@ -366,6 +372,8 @@ static void set_mesh(rb_case *c)
     rb_rolling_case fitted = *rc;
     fitted.mesh = RB_MESH_FITTED;
     const int strong = rb_rolling_mu_beta(rc) >= 1.0;
+    /* Fitted and growing elements need matrices, so that there are at most `most` of them; equal
+     * ones have transforms. */
     const int most = !graded                                   ? 0
                      : rb_rolling_suits_large(&fitted, &equal) ? RB_ROLLING_GRADED_BY_PRODUCTS_UP_TO
                      : strong                                  ? RB_ROLLING_GRADED_STRONG_UP_TO
@@ -398,6 +406,9 @@ static void set_mesh(rb_case *c)
                                                                                             : 100;
 }
 
+/* From words to a case, always from the given values: 1. which of two values counts; 2. bodies,
+ * laws, formulation; 3. files; 4. what follows from all of them, mesh and elements; 5. the check;
+ * 6. loads and tilts that a search has to find. */
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
@@ -407,6 +418,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = rb_case_check_never_taken(c, why);
     if (s == RB_OK)
         s = rb_case_read_history(c, why);
+    /* words: as given; resolved: with what follows from it. */
     c->resolved = c->words;
     rb_case_store(c, &set, &c->resolved);
     if (c->crack.is_taken) {

@@ -146,6 +146,8 @@ static int steps_found(const history_state *r)
     return known > 0 ? known : r->found->substeps[r->history->n];
 }
 
+/* Each row is one or more steps; at rest the answer may ask for more of them than the case says.
+ * The model keeps the state from row to row. */
 static rb_status all_rows(history_state *r, rb_message *why)
 {
     const rb_rolling_observer *o = r->observer;
@@ -162,6 +164,7 @@ static rb_status all_rows(history_state *r, rb_message *why)
             if (of_cycle != RB_OK)
                 return of_cycle;
         }
+        /* A history that is checked has the jump where its result says that it is. */
         if (r->found && r->found->rows.jumped == r->history->n)
             rb_rolling_row_note_jump(r);
         if (r->model->rows.not_unique == 0 &&
@@ -175,6 +178,7 @@ static rb_status all_rows(history_state *r, rb_message *why)
 
 /* ---- Preparation ------------------------------------------------------------------- */
 
+/* Of a column of the program, or the case's own value without one. */
 static double largest(const double *column, int n, double own)
 {
     double max = column ? column[0] : own;
@@ -196,11 +200,15 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
         widest.mu = rb_rolling_law_at_rest(&widest, 0.0);
         widest.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
     }
+    /* The largest load or approach of all rows, without a tangential one: the widest contact at
+     * rest. */
     widest.zone = zone;
     widest.load = largest(program->load, program->n, widest.load);
     widest.approach = largest(program->approach, program->n, widest.approach);
     widest.shift = widest.creep = widest.creep_ratio = widest.force = NAN;
     widest.force_ratio = 0.0;
+    /* Solved, or placed on the elements of a history that exists already: a variant of it, the same
+     * elements for another case, or those of a result. */
     if (!r->found)
         return rb_rolling_model_create(&widest, r->model, why);
     if (r->like)
@@ -272,6 +280,7 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
                             ? r->found->substeps[r->at_rest]
                             : ceil(elements / count * (1.0 - 1e-9));
 
+    /* count rows that roll, of `each` steps. */
     if (count * each > RB_ROLLING_MOST_STEPS)
         return rb_refuse(why, "distance", "%g half-widths are %.3g steps; expected at most %g",
                          way / h->half_width, count * each, (double)RB_ROLLING_MOST_STEPS);
@@ -333,6 +342,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
     rb_rolling_model *model = r->model;
     rb_status s = begin_program(r, rc, why);
 
+    /* wider > 0: the zone of the next attempt; 0: this one is the last. */
     for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
         wider = 0.0;
         s = prepare(r, zone, why);
@@ -349,6 +359,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
                 /* nothing rolls, no distance is measured by a: it is that of the largest load */
                 r->history->half_width = rb_rolling_contact_half_width(
                     r->rc, fmax(0.0, largest(r->history->normal_load, r->history->n, 0.0)));
+            /* An automatic zone may grow to the extent of the bodies or of the gap's table. */
             if (s == RB_ZONE && r->rc->zone == 0.0) {
                 const double now = fmax(-model->mesh.ends[0], model->mesh.ends[model->mesh.n]);
                 double from, to;

@@ -17,6 +17,8 @@
             is_mean                                                                                \
     }
 
+/* The columns of a history: name and other names, unit, the place in a program, the place in a case
+ * (SIZE_MAX: none), and whether a step that rolls takes the mean over its way. */
 const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
     {"distance", NULL, "a", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
     {"time", "t", "s", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
@@ -65,6 +67,8 @@ int rb_rolling_program_at_rest(const rb_rolling_program *program)
 
 int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc, int r)
 {
+    /* A row of a history in time has as many steps as its time step asks; 1e-9: a quotient that is
+     * whole but for rounding. */
     if (!program->time || r == 0 || !(rc->time_step > 0.0))
         return 1;
     const double steps = (program->time[r] - program->time[r - 1]) / rc->time_step;
@@ -89,6 +93,7 @@ static void begin_from_nothing(rb_rolling_case *at, int part, int parts)
 {
     const rb_rolling_derived d = rb_rolling_derive(at);
     const double shift = rb_rolling_wanted_shift(at);
+    /* Half of the parts press, the other half loads. */
     const int presses = loads(at) ? parts / 2 : parts;
     const double pressed = fmin(1.0, (double)part / presses),
                  loaded = part > presses ? (double)(part - presses) / (parts - presses) : 0.0;
@@ -110,6 +115,7 @@ rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const 
 {
     rb_rolling_case at = *rc;
 
+    /* Linear between the rows; the last part has the numbers of the row to the last digit. */
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
         const double *x = column_of(program, c);
         if (x)
@@ -153,6 +159,7 @@ static double value_at(const rb_rolling_program *program, const double *column, 
 static double mean_between(const rb_rolling_program *program, const double *column, double from,
                            double to)
 {
+    /* Trapezia from row to row, which are exact because a column is linear in between. */
     double sum = 0.0, x = from;
 
     while (x < to) {
@@ -163,6 +170,8 @@ static double mean_between(const rb_rolling_program *program, const double *colu
     return sum / (to - from);
 }
 
+/* The case of a step that rolls from..to: creepages by their mean, because the slip is the integral
+ * over the way; everything else at its end. */
 rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
                                         const rb_rolling_case *rc, double from, double to)
 {
@@ -190,6 +199,8 @@ int rb_rolling_program_is_same(const rb_rolling_program *program, int a, int b)
     return same;
 }
 
+/* A column mu replaces the coefficient of the case; its largest value sets the scales of
+ * friction. */
 rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
                                         const rb_rolling_case *rc)
 {
@@ -223,6 +234,7 @@ rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
     return rb_rolling_case_check(&pressed, why);
 }
 
+/* A row may lift the bodies apart; what else it asks for is then checked as under a small load. */
 rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *why)
 {
     const int unloaded = rc->load == 0.0, lifted = isnan(rc->load) && rc->approach <= 0.0;
@@ -332,6 +344,8 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_r
 rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory,
                                      rb_rolling_program *program)
 {
+    /* A case without a table is a history, too: count increments that press, count that load, and
+     * of a transient one row to the end of its distance. */
     const int rolls = rc->formulation == RB_TRANSIENT;
     const int count = rc->increments > 1 ? rc->increments : 1;
     const rb_rolling_derived d = rb_rolling_derive(rc);
@@ -367,6 +381,7 @@ rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory
         program->bulk_stress_b = bulk + rows;
     }
     program->n = count + (loaded ? count : 0) + rolls;
+    /* part: of the tangential loading, 0 while the bodies are being pressed together. */
     for (int r = 0; r < program->n; r++) {
         normal[r] = r < count ? most * (r + 1) / count : most;
         const double part = !loaded || r >= 2 * count ? 1.0

@@ -46,6 +46,9 @@ int rb_rolling_row_steps_at_rest(const history_state *r)
     return rb_rolling_program_steps(r->program, r->rc, r->row, increments);
 }
 
+/* Sets up the next step: its case from the program, the particles brought to where the step leaves
+ * them, gap, bounds and controls. w_T and yielded: of the state before, where the material comes
+ * from (4.2). */
 rb_status rb_rolling_row_begin_step(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
@@ -58,6 +61,7 @@ rb_status rb_rolling_row_begin_step(history_state *r, rb_message *why)
     rb_message reason = {.text = ""};
 
     if (rests) {
+        /* At rest: part `done` of all steps between two rows of the program. */
         const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps,
                   done = r->part * r->steps + r->step;
         const double interval = time_at(r, done + 1, all) - time_at(r, done, all);
@@ -65,6 +69,8 @@ rb_status rb_rolling_row_begin_step(history_state *r, rb_message *why)
         r->stride = (rb_rolling_stride){0.0, interval, is_first};
         step = rb_rolling_program_row(r->program, r->rc, r->row, done + 1, all);
     } else {
+        /* In rolling: from `done` to `done` + 1 lengths c; distances of the program are in
+         * half-widths. */
         const double length = c / r->history->half_width;
         const int done = (k - r->at_rest) * r->steps + r->step;
         r->to = k + 1 == r->rows && r->step + 1 == r->steps
@@ -153,7 +159,7 @@ void rb_rolling_row_end_step(history_state *r, rb_status s)
     if (rests && rb_rolling_law_depends_on_state(model->rc))
         see_fall(r, r->shift);
     if (rests)
-        r->shift += state->xi;
+        r->shift += state->xi; /* xi of a step at rest is an increment (4.2) */
     rb_rolling_particles_leave(&r->particles, &r->stride);
     rb_rolling_cycle_step(model);
     h->substeps[k] = done;

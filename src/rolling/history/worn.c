@@ -48,11 +48,13 @@ static rb_status press(wear_state *r, rb_message *why)
     at_rest.increments = 1;
     at_rest.shift = at_rest.force = at_rest.force_ratio = NAN;
     at_rest.creep = at_rest.creep_ratio = NAN;
+    /* What slides has full friction everywhere; what frets begins in the middle of its stroke. */
     if (r->wear->slides && rb_rolling_largest_mu(&at_rest) > 0.0)
         at_rest.force_ratio = -1.0; /* A slides towards +x */
     else
         at_rest.shift = 0.0;
     rb_status s = rb_rolling_model_create(&at_rest, &r->model, why);
+    /* Again on a zone of the same elements that is symmetric to x = 0. */
     if (s == RB_OK && at_rest.zone == 0.0) {
         at_rest.zone = fmax(-mesh->ends[0], mesh->ends[mesh->n]);
         at_rest.contact_elements = mesh->n;
@@ -64,6 +66,9 @@ static rb_status press(wear_state *r, rb_message *why)
     /* Arrays for the mesh of the model. */
     if (s != RB_OK)
         return s;
+    /* n per position of the stroke: pressures. n: abscissae, depths, rates, and the path of a
+     * cycle. softer: F with the wear of a stage on its diagonal (W1), or the diagonal alone for
+     * products. */
     const size_t n = (size_t)r->model.mesh.n, m = n + 1,
                  all = n * (size_t)rb_rolling_wear_positions(r);
 
@@ -156,6 +161,8 @@ static rb_status roll_stage(wear_state *r, double before, double before_b, doubl
     const double share = r->wear->share;
     const int turns_b = r->rc.elastic_b && isfinite(before_b) && share > 0.0;
 
+    /* The wear of a turn depends on the radius that it leaves: a fixed point, which contracts by
+     * the small part of the radius that a step wears. */
     for (int k = 0; k < ROUNDS; k++) {
         rb_rolling_model_free(&r->model);
         const rb_status s = rb_rolling_model_create(&r->rc, &r->model, why);
@@ -172,6 +179,8 @@ static rb_status roll_stage(wear_state *r, double before, double before_b, doubl
                  ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p, h, e_T)
                  : rb_rolling_dissipated_power(model->rc, state->n, state->lambda, state->q, h,
                                                e_T));
+        /* depth is that of one turn: A wears the part 1 - share of it, and B the rest, R_A/|R_B|
+         * times per turn of A. */
         const double radius = before - turns * (1.0 - share) * *depth, moved = r->rc.a.radius;
         if (turns_b)
             r->rc.b.radius = before_b - turns * share * *depth * moved / fabs(r->rc.b.radius);
@@ -189,6 +198,8 @@ static rb_status roll_stage(wear_state *r, double before, double before_b, doubl
 /* (W4) of the radii. */
 static rb_status roll(wear_state *r, double turns, rb_message *why)
 {
+    /* The first stage wears gamma of the step; the second one starts from what the rest of the step
+     * wears by the slope of the first. */
     const double start = r->rc.a.radius, start_b = r->rc.b.radius, share = r->wear->share;
     double first = 0.0, second = 0.0;
     rb_status s = roll_stage(r, start, start_b, GAMMA * turns, &first, why);
@@ -258,6 +269,8 @@ static void scars(const wear_state *r, scar *a, scar *b)
     *b = frets ? scar_of(r->n, r->depth, h, share) : (scar){r->track, r->passage};
 }
 
+/* One row of the history, at the end of a step: what is worn so far, and the contact under the worn
+ * gap. */
 static rb_status record(wear_state *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
@@ -326,6 +339,8 @@ static rb_status fret(wear_state *r, rb_message *why)
       : !isnan(rc->force_ratio) ? &program.force_ratio
                                 : &program.shift) = column;
     for (int j = 0; j < rows && column; j++) {
+        /* 0 to last, on to -last, and back to last: the first quarter loads, the other four are the
+         * cycle that counts. */
         const double t = (j + 1.0) / quarter; /* quarters of a cycle */
         column[j] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
     }
@@ -356,6 +371,8 @@ static double edge_of_stick(const wear_state *r, int outer, int side)
             return NAN;
         y[k] = cbrt(gsl_pow_2(r->path[i]));
     }
+    /* Slope and curvature of the parabola through y at 0, 1, 2; its nearer zero lies towards the
+     * stick zone. */
     const double b = 0.5 * (4.0 * y[1] - 3.0 * y[0] - y[2]), c = 0.5 * (y[0] - 2.0 * y[1] + y[2]);
     const double square = b * b - 4.0 * c * y[0];
     /* in elements from the second one that slides, towards what sticks */
@@ -392,6 +409,8 @@ static rb_status align_with_stick(wear_state *r, rb_message *why)
     rb_status s = RB_OK;
     double from = NAN, to = NAN;
 
+    /* A round: a cycle, the length that its stick edges ask for, and a mesh of that length, on
+     * which the edges lie a little elsewhere. */
     for (int k = 0; k < ROUNDS && s == RB_OK; k++) {
         s = fret(r, why);
         if (s != RB_OK || !stick_run(r, &from, &to))
@@ -399,6 +418,7 @@ static rb_status align_with_stick(wear_state *r, rb_message *why)
         const double h = r->model.bodies.f.h[0];
         const int odd = r->n % 2;
         const double across = (to - from) / h;
+        /* As many elements as stick now, even or odd like the mesh, whose middle is x = 0. */
         int count = 2 * (int)round(0.5 * (across + 2.0 * WITHIN - odd)) + odd;
         if (across < LEAST_FACTOR * (count - 2.0 * WITHIN)) /* the zone has to hold the contact */
             count -= 2;
@@ -436,6 +456,8 @@ static rb_status begin_positions(wear_state *r, double reach, double half_width,
                        "wear: --worn is of both bodies in one place, and a stroke of +-%.3g of "
                        "the half-width moves them; start from the shapes before",
                        reach / half_width);
+    /* From here on pressures are kept at every position; the depths of A and B take over what is
+     * worn, each its share. */
     const size_t n = (size_t)r->n;
     rb_status s = rb_rolling_stroke_create(r->n, rb_rolling_couples(&r->rc), reach, half_width,
                                            r->model.bodies.f.h[0], &r->stroke);
@@ -470,6 +492,7 @@ static rb_status see_stroke(wear_state *r, rb_message *why)
     double load = 0.0, sum = 0.0;
     int sticks = 0;
 
+    /* Four strokes make a cycle: a quarter of the path, weighted by the pressure. */
     for (int i = 0; i < r->n; i++) {
         load += p[i];
         sum += p[i] * 0.25 * r->path[i];
@@ -504,6 +527,8 @@ static rb_status set_rate(wear_state *r, double depth, rb_message *why)
     }
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
+    /* The midpoint rule: half a step with the path of its start, then the path of that gap for all
+     * of the step. */
     s = rb_rolling_press_worn(r, 0.5, r->pressed, why);
     if (s == RB_OK) {
         rb_rolling_wear_off(r, 0.5, r->now);
@@ -524,6 +549,8 @@ static rb_status end_step(wear_state *r, rb_message *why)
     return s == RB_OK && r->stroke.positions > 0 ? rb_rolling_model_resolve(&r->model, 1, why) : s;
 }
 
+/* One step of wear. If the contact outgrows its zone, the step is undone and repeated on a wider
+ * one. */
 static rb_status one_step(wear_state *r, double part, rb_message *why)
 {
     enum { WIDER = 12 };
@@ -577,6 +604,7 @@ static rb_rolling_case worn_case(const rb_rolling_case *rc, const rb_rolling_wea
     return worn;
 }
 
+/* Which laws, motions and bodies wear is computed for, before anything is solved. */
 static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
     const rb_rolling_case worn = worn_case(rc, wear);
@@ -648,6 +676,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
 
     memset(history, 0, sizeof *history);
     memset(last, 0, sizeof *last);
+    /* The load stays, whatever the worn profile does to the half-width and the approach. */
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
     rb_rolling_press_by_load(&r.rc);
     r.rc.increments = 1; /* the cycles have their own */
@@ -655,6 +684,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
+    /* Columns that this kind of wear has not: NULL, so that no table shows them. */
     if (s == RB_OK) {
         if (wear->slides || rc->formulation == RB_STEADY) {
             free(history->stroke);
@@ -677,6 +707,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK)
         s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
                                          : press(&r, why);
+    /* Fretting: elements about the stick zone; then the worn gap and the first pressure. */
     if (s == RB_OK && rc->formulation != RB_STEADY && !wear->slides && rc->zone == 0.0)
         s = align_with_stick(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
@@ -687,6 +718,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
         memcpy(r.pressed, r.model.state.p, (size_t)r.n * sizeof *r.pressed);
     if (s == RB_OK)
         s = record(&r, 0.0, why);
+    /* Equal steps; the last row is exactly at the end. */
     for (int k = 1; k <= wear->steps && s == RB_OK; k++) {
         s = one_step(&r, part, why);
         if (s == RB_OK)

@@ -39,6 +39,7 @@ void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *co
     }
 }
 
+/* Counts of elements by their zones, and the outermost ends of what sticks. */
 static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s)
 {
     double contact;
@@ -63,6 +64,8 @@ static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s
 
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t)
 {
+    /* load_N and load_T turn the frame of the contact into vertical and horizontal parts (--normals
+     * surface); t: x and y of each element. */
     for (int i = 0; i < model->problem.n; i++) {
         const double h = model->bodies.f.h[i];
         const double c = model->problem.load_N[i] / h, d = model->problem.load_T[i] / h;
@@ -111,6 +114,7 @@ static double half_stretch(const rb_rolling_case *rc, const rb_rolling_body *bod
                : 0.0;
 }
 
+/* P, Q, delta and xi, and the ratios of them that users compare with formulas. */
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_problem *p = &model->problem;
@@ -128,6 +132,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
                                                  : (rb_rolling_ellipse){NAN, NAN, NAN, NAN, NAN};
     if (s->formulation == RB_STATIC) {
         const rb_rolling_case *rc = model->rc;
+        /* At rest xi is the shift of this step; a creepage only enters the slip (12). */
         s->tangential_shift = model->shift + model->state.xi;
         s->tilt = rb_rolling_is_tilted(rc) ? rb_rolling_tilt(rc) : NAN;
         s->creepage = !isnan(rc->creep) ? rc->creep
@@ -146,6 +151,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
             ? NAN
             : s->tangential_load *
                   (half_stretch(rc, &rc->a) + (rc->elastic_b ? half_stretch(rc, &rc->b) : 0.0));
+    /* (L9) A layer that is unstrained ahead of the contact, or behind it. */
     s->creepage_ahead = s->creepage + stretch;
     s->creepage_behind = s->creepage - stretch;
     rb_rolling_set_ellipse_forces(rc, s->creep_ratio, &s->ellipse_force, &s->ellipse_force_kalker);

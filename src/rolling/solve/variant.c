@@ -25,6 +25,7 @@ static const motion at_rest = {0.0, 1.0};
 static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of, int same_arcs,
                            motion moved, rb_rolling_mesh *mesh, rb_message *why)
 {
+    /* A wheel of another radius has other arcs between the same ends. */
     if (!same_arcs && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT)) {
         const double passed = mesh->passed;
         const rb_status s =
@@ -90,6 +91,8 @@ static const struct {
                BETWEEN(contact.lcp_form, contact.tol)};
 #undef BETWEEN
 
+/* 1: equal in all but what the bounds, the given values and the scales depend on: the rows of the
+ * contact problem are the same, and only its right side differs. */
 int rb_rolling_same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
 {
     rb_rolling_case like = *x;
@@ -116,6 +119,7 @@ int rb_rolling_same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
  * material each, they differ in Young's modulus alone, all by this factor.  0: they do not. */
 static double softening(const rb_rolling_case *x, const rb_rolling_case *y)
 {
+    /* E scales all displacements of a homogeneous body; nu does not change with it. */
     const double factor = x->a.young / y->a.young;
     rb_rolling_body a = x->a, b = x->b;
 
@@ -152,6 +156,8 @@ static factors factors_of(const rb_rolling_case *rc)
     for (int k = 0; k < 1 + rc->elastic_b; k++) {
         double length[RB_ROLLING_TERMS];
         const rb_bem_surface s = rb_rolling_surface_of(rc, k ? &rc->b : &rc->a, length);
+        /* (1 - nu)/(2 G) = (1 - nu^2)/E, and the coupling of (B6), which has the other sign in
+         * B. */
         const double own = 0.5 * (1.0 - s.material.poisson) / s.material.shear;
         all.direct += own;
         all.datum += own * log(s.datum);
@@ -204,6 +210,9 @@ static rb_status add_change(const rb_rolling_model *of, const rb_rolling_case *r
         free(w);
         return RB_OK;
     }
+    /* w = direct L + datum sum + coupled b, with L the logarithms, sum the total of the traction
+     * and b the signs: L follows from the displacements that are known, and the same L serves the
+     * other factors. Longer elements add ln(scale) times the sum. */
     const factors at = factors_of(of->rc), to = factors_of(rc);
     sign_integral(f, state->q, b);     /* of the normal displacement */
     sign_integral(f, state->p, b + m); /* less that of the tangential one */
@@ -255,7 +264,8 @@ static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *
     if (by_formula)
         return BY_FORMULA;
     /* Of wheels that relax hysteresis asks for the matrix of their memory, an incompressible wheel
-     * does not tell the pressure on its hub. */
+     * does not tell the pressure on its hub. tells: 1: the model's factors determine the change to
+     * first order. */
     int tells = rc->elastic_b == of->rc->elastic_b &&
                 (rb_rolling_can(rc, RB_BODY_FLAT) ||
                  !(rb_rolling_relaxes(rc) || rb_rolling_relaxes(of->rc)));
@@ -281,6 +291,7 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     const rb_bem_flexibility *f = &of->bodies.f;
     const int moves = moved.scale != 1.0 || moved.shift != 0.0;
 
+    /* All members but those that are replaced below stay those of the model. */
     v->bodies = of->bodies;
     if (rb_rolling_same_bodies(rc, of->rc) && !moves)
         return RB_OK;
@@ -330,6 +341,8 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
                         rb_rolling_model *v, rb_message *why)
 {
     rb_rolling_plan plan = rb_rolling_plan_of(rc);
+    /* Three ways, from cheap to dear: all rows borrowed, the bodies borrowed with the change of
+     * their displacement as w0, or bodies built anew. */
     const int moves = moved.scale != 1.0 || moved.shift != 0.0,
               own = own_bodies && rb_rolling_is_compressed(of),
               shares = results >= 0 && !own && !moves && rb_rolling_same_rows(rc, of->rc),
@@ -378,6 +391,7 @@ rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_perturb
     return create(of, of->rc, 1, 0, perturbation, (motion){shift, scale}, v, why);
 }
 
+/* Gap and bounds on moved elements alone, n each: the data of the equations without bodies. */
 rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
                                   double further, double *gap, double *bound, rb_message *why)
 {
@@ -459,6 +473,7 @@ rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_
 
 void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *v)
 {
+    /* What is borrowed is recognised by its pointer, and is not freed. */
     if (v->mesh.ends && v->mesh.ends == of->mesh.ends) { /* all rows are borrowed */
         free(v->problem.bound);
         memset(&v->problem, 0, sizeof v->problem);

@@ -69,6 +69,8 @@ static const rb_bem_system *system_of(const rb_rolling_field *f)
     return f->made ? f->made : f->model->bodies.system_a;
 }
 
+/* The tractions of a half-plane as nodes between which they are linear (B14), and the waves of its
+ * layer (L5). */
 static rb_status create_flat(rb_rolling_field *f, rb_message *why)
 {
     const rb_rolling_model *model = f->model;
@@ -100,6 +102,7 @@ static rb_status create_cover(rb_rolling_field *f, rb_message *why)
     for (size_t i = 0; i <= n; i++)
         ends[i] = radius * asin(model->mesh.ends[i] / radius);
     for (size_t i = 0; i < n; i++) {
+        /* From x and y to the normal and the tangent of the circle at the midpoint. */
         const double angle = 0.5 * (ends[i] + ends[i + 1]) / radius, x = cos(angle), y = sin(angle);
         q[i] = x * t[2 * i] + y * t[2 * i + 1];
         p[i] = x * t[2 * i + 1] - y * t[2 * i];
@@ -167,6 +170,8 @@ rb_status rb_rolling_field_create(const rb_rolling_model *model, rb_rolling_fiel
     if (!f)
         return RB_ENOMEM;
     f->model = model;
+    /* The way in which stress is known depends on the body: closed form, waves around a cover, or
+     * Somigliana's identity. */
     s = (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)                  ? create_flat
          : model->rc->a.cover > RB_BEM_RING_THINNEST * model->rc->a.radius ? create_cover
                                                                            : create_wheel)(f, why);
@@ -260,6 +265,8 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
     if (status != RB_OK)
         return rb_arena_done(&scratch, status);
     for (int k = 0; k < n; k++) {
+        /* Plane strain: szz = nu (sxx + syy), with nu of the material at this depth; plane stress:
+         * 0. */
         const double lateral =
             rc->plane == RB_PLANE_STRESS ? 0.0 : rb_rolling_poisson_at(&rc->a, xy[2 * k + 1]);
         rb_rolling_stress s = {.x = xy[2 * k],
@@ -272,6 +279,7 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
         s.max_shear = hypot(0.5 * (s.sxx - s.syy), s.sxy);
         s.principal_1 = mean + s.max_shear;
         s.principal_2 = mean - s.max_shear;
+        /* szz is the third principal stress. */
         s.tresca_shear = 0.5 * (fmax(s.principal_1, s.szz) - fmin(s.principal_2, s.szz));
         s.hydrostatic = (s.sxx + s.syy + s.szz) / 3.0;
         /* in units of the shear, whose square may underflow */

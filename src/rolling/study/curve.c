@@ -96,6 +96,7 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
         yields += state->zone[i] > RB_ZONE_SLIP_POSITIVE ? model->bodies.f.h[i] : 0.0;
     if (c->yield_ratio)
         c->yield_ratio[k] = contact > 0.0 ? yields / contact : 0.0;
+    /* A limit of stick is known to an element. */
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);
     c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
@@ -144,6 +145,7 @@ static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case
     rc->creep_ratio = over == RB_OVER_CREEP_RATIO ? value : NAN;
 }
 
+/* Equal steps of the creepage, equal ratios of the speed. */
 static double value_at(const rb_rolling_range *r, int k)
 {
     const double t = r->points > 1 ? (double)k / (r->points - 1) : 0.0;
@@ -260,6 +262,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         const double value = value_at(r, k < points ? k : 2 * points - 1 - k);
         rb_message reason = {.text = ""};
         set_creepage(r->over, value, &steady);
+        /* The first point that has a solution makes the mesh and the factors of all that follow. */
         if (is_made)
             s = rb_rolling_model_set_case(model, &steady, &reason);
         else {

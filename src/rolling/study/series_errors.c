@@ -20,6 +20,8 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
 {
     double coarser[RB_ERROR_RUNS];
 
+    /* Each column with an error bar: of the contact mesh, of the elements outside it, and rounding
+     * as a part of the largest entry. */
     for (int k = 0; k < columns->n; k++) {
         const rb_rolling_result *column = &columns->row[k];
         if (column->error_bar == RB_SCALE_NONE || !rb_rolling_has_column(column, own))
@@ -153,6 +155,7 @@ static rb_status widen(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
+/* placed: what the coarser runs found, at the steps of the run itself. */
 static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_history placed[],
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
@@ -411,6 +414,7 @@ static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_hi
 
     if (s != RB_OK)
         return s;
+    /* Columns that the run itself has not. */
     double **const absent[][2] = {{&errors->worn_b, &own->worn_b},
                                   {&errors->max_depth_b, &own->max_depth_b},
                                   {&errors->radius_b, &own->radius_b},
