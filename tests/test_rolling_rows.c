@@ -400,6 +400,33 @@ TEST(steady_is_said_of_what_is)
     }
 }
 
+/* What slipped in a row before and sticks now keeps the friction of then, so that the pressure of a
+ * stick zone has a kink at each former limit, and p0 is not found from elements beyond one. */
+TEST(former_limits_do_not_count_for_the_largest_pressure)
+{
+    static const double load[2][3] = {{20.41, 18.62, 32.05}, {11.66, 32.35, 25.02}},
+                        shift[3] = {0.01541, -0.00783, -0.0123}, ratio[3] = {-0.793, 0.322, 0.842};
+    static const char *const bodies[2] = {"poisson 0.243 mu 0.33",
+                                          "poisson 0.306 mu 0.611 young-b 8499 poisson-b 0.328"};
+    static const double most[2] = {2e-2, 5e-3}; /* 0.18 and 0.071 by elements beyond a kink */
+    for (int k = 0; k < 2; k++) {
+        const rb_rolling_program program = {
+            .n = 3, .load = load[k], .shift = k ? NULL : shift, .force_ratio = k ? ratio : NULL};
+        double p0[2][3];
+        for (int fine = 0; fine < 2; fine++) {
+            const rb_rolling_case rc = rolling_case(
+                "support halfplane gap parabola radius 100 young 1000 %s contact-elements %d",
+                bodies[k], fine ? 160 : 40);
+            OWNED(rb_rolling_model) model;
+            OWNED(rb_rolling_history) h;
+            run(&rc, &program, &model, &h);
+            memcpy(p0[fine], h.max_pressure, sizeof p0[fine]);
+        }
+        for (int row = 0; row < 3; row++)
+            CHECK_REL(p0[0][row], p0[1][row], most[k], "row %d", row + 1);
+    }
+}
+
 /* ---- Memory ------------------------------------------------------------------------ */
 
 TEST(every_failing_allocation_is_noticed)
