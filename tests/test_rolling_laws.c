@@ -828,6 +828,27 @@ TEST(warm_surfaces_have_another_friction)
     }
 }
 
+/* Bodies of unlike warmth that change places, at the opposite creepage: what friction remembers
+ * begins with the coefficient that they have where they touch, not with that of one of them. */
+TEST(warm_and_cold_bodies_may_change_places)
+{
+    static const rb_rolling_heat hot = {50.0, 3.5, 120.0}, cold = {20.0, 2.0, 0.0};
+    rb_rolling_solution s[2];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = warm(k ? -0.5 : 0.5);
+        rc.heat_a = k ? cold : hot;
+        rc.heat_b = k ? hot : cold;
+        rc.friction.memory = 0.05;
+        rc.friction.memory_slip = 1.0;
+        s[k] = solved(&rc);
+    }
+    CHECK_REL(s[1].force_ratio, -s[0].force_ratio, 1e-9, "Q");
+    for (int i = 0; i < s[0].n; i++)
+        CHECK_REL(s[1].mu[i], s[0].mu[i], 1e-9, "element %d", i);
+    rb_rolling_solution_free(&s[0]);
+    rb_rolling_solution_free(&s[1]);
+}
+
 /* Far along the way the steps are as warm as steady rolling. */
 TEST(steps_become_warm)
 {

@@ -135,7 +135,15 @@ double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double t
 
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x)
 {
-    return rb_rolling_law_mu(rc, x, 0.0, rc->heat_a.temperature);
+    const rb_rolling_heat *a = &rc->heat_a, *b = &rc->heat_b;
+    const double e_a = sqrt(a->conductivity * a->heat_capacity),
+                 e_b = sqrt(b->conductivity * b->heat_capacity);
+    /* of two bodies that touch */
+    const double temperature = e_a > 0.0 && e_b > 0.0
+                                   ? (e_a * a->temperature + e_b * b->temperature) / (e_a + e_b)
+                                   : a->temperature;
+
+    return rb_rolling_law_mu(rc, x, 0.0, temperature);
 }
 
 double rb_rolling_law_steepest(const rb_rolling_case *rc, double length)

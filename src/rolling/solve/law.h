@@ -13,7 +13,8 @@ double rb_rolling_table_at(const rb_rolling_table *table, double x);
 /* 1 if the law depends on the slip velocity. */
 int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature);
-/* The coefficient at rest and without heating. */
+/* The coefficient at rest and without heating, where bodies that are not equally warm touch (T_m of
+ * T2). */
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
 /* Largest -dmu/dv of a particle that passes an element of this length, or an upper bound if two
  * terms have different slip scales or friction remembers (theory-rolling.md F3). */
