@@ -19,18 +19,21 @@ SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads $(SUITESPARSE) -lglpk -lm $(OPENMP)
 # The program takes archives where there are any: a shared library that a case never uses costs its
 # start as well, and thirty of them (HDF5's for files on the web: curl, Kerberos, LDAP) cost more than
-# a small case. OpenBLAS stays shared.  make ARCHIVES= takes none; where they want more than is named
-# here the shared ones are linked.
+# a small case, OpenBLAS's alone a quarter of the start.  make ARCHIVES= takes none; where they want more
+# than is named here the shared ones are linked.
 LIBRARY_FOLDER := $(dir $(filter /%,$(shell $(CC) -print-file-name=libgsl.a)))
 ARCHIVED := lapacke gsl fftw3_threads fftw3 nlopt glpk inih jansson sz aec z umfpack spqr cholmod amd colamd ccolamd camd suitesparseconfig
 HDF5_ARCHIVE := $(if $(filter hdf5-serial,$(HDF5)),$(wildcard $(patsubst -L%,%/libhdf5.a,$(shell pkg-config --libs-only-L $(HDF5)))))
 GOMP_ARCHIVE := $(filter /%,$(shell $(CC) -print-file-name=libgomp.a))
-ARCHIVES := $(GOMP_ARCHIVE) $(HDF5_ARCHIVE) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
+# OpenBLAS's LAPACK is in Fortran
+FORTRAN_ARCHIVES := $(filter /%,$(foreach name,gfortran quadmath,$(shell $(CC) -print-file-name=lib$(name).a)))
+OPENBLAS_ARCHIVE := $(if $(filter %/libgfortran.a,$(FORTRAN_ARCHIVES)),$(wildcard $(patsubst -L%,%/libopenblas.a,$(shell pkg-config --libs-only-L openblas))))
+ARCHIVES := $(GOMP_ARCHIVE) $(HDF5_ARCHIVE) $(if $(OPENBLAS_ARCHIVE),$(OPENBLAS_ARCHIVE) $(FORTRAN_ARCHIVES)) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
 # SuiteSparse 5 has METIS in a library of its own
 METIS := $(if $(ARCHIVES),$(if $(LIBRARY_FOLDER),$(firstword $(wildcard $(LIBRARY_FOLDER)libmetis.so.5))))
 # and GLPK's archive wants libtool's loader, whose development files need not be there
 LTDL := $(if $(filter %/libglpk.a,$(ARCHIVES)),$(firstword $(wildcard $(LIBRARY_FOLDER)libltdl.so.7)))
-WITHOUT_ARCHIVES = $(filter-out $(if $(HDF5_ARCHIVE),-lhdf5) $(patsubst $(LIBRARY_FOLDER)lib%.a,-l%,$(ARCHIVES)),$(LDLIBS))
+WITHOUT_ARCHIVES = $(filter-out $(if $(HDF5_ARCHIVE),-lhdf5) $(if $(OPENBLAS_ARCHIVE),-lopenblas) $(patsubst $(LIBRARY_FOLDER)lib%.a,-l%,$(ARCHIVES)),$(LDLIBS))
 PROGRAM_LIBS = -Wl,--start-group $(ARCHIVES) -Wl,--end-group -Wl,--as-needed $(METIS) $(LTDL) $(WITHOUT_ARCHIVES)
 CPPFLAGS += $(OPENMP) -DRB_NLOPT=$(words $(NLOPT)) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without

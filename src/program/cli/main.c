@@ -1,12 +1,15 @@
 /* rollbem: finds the command, and checks that its output was written. */
+#define _DEFAULT_SOURCE /* MADV_HUGEPAGE */
 #include "program/cli/cli.h"
 #include "base/blas.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <gsl/gsl_errno.h>
@@ -63,6 +66,26 @@ static void keep_freed_memory(void)
 #endif
 }
 
+/* A small case touches some hundred pages, and a virtual machine fetches each of them for what
+ * thousands of multiplications cost: up to a fifth of the case.  Hence the heap begins with pages
+ * of 2 MB where the system has them; what lies before the first of these is left alone. */
+static void begin_with_large_pages(void)
+{
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
+    static void *volatile left_alone; /* volatile: or the compiler leaves its malloc out */
+    const uintptr_t page = (uintptr_t)2 << 20;
+    const size_t size = 8 * page;
+    char *heap = malloc(size);
+    if (!heap)
+        return;
+    const uintptr_t begin = (uintptr_t)heap, first = (begin + page - 1) & ~(page - 1);
+    madvise((void *)first, ((begin + size) & ~(page - 1)) - first, MADV_HUGEPAGE);
+    free(heap);
+    left_alone = malloc(first - begin);
+    (void)left_alone;
+#endif
+}
+
 /* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
 static int finished;
 
@@ -92,6 +115,7 @@ int main(int argc, char **argv)
     if (!getenv("OPENBLAS_NUM_THREADS"))
         rb_blas_threads(1);
     keep_freed_memory();
+    begin_with_large_pages();
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
     signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
