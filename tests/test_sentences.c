@@ -145,6 +145,11 @@ static const sentence notes[] = {
      "In step 1 nothing is held, and elements slide towards both sides: its shift",
      "--support halfplane --mu 0.01 --contact-elements 20 --history drawn.txt",
      "--support halfplane --mu 0.01 --contact-elements 19 --history drawn.txt"},
+    {"not-unique-row",
+     "In step 1 nothing is held, and elements slide towards both sides: its shift",
+     "--support halfplane --mu 0.01 --yield-stress 1 --contact-elements 20 --history little.txt",
+     "--support halfplane --mu 0.01 --yield-stress 1 --hardening 100 --contact-elements 20 "
+     "--history little.txt"},
     /* in one of the steps that a row takes: its end holds an element */
     {"not-unique-row",
      "In step 1 nothing is held, and elements slide towards both sides: its shift",
@@ -208,6 +213,10 @@ static const sentence notes[] = {
     {"not-unique", "slide towards both sides: the shift is not unique",
      "--support halfplane --load 100 --mu .01 --force 0 --contact-elements 40",
      "--support halfplane --load 100 --mu .01 --force-ratio 1 --contact-elements 40"},
+    {"not-unique", "slide towards both sides: the shift is not unique",
+     "--support halfplane --load 100 --mu .01 --force 0 --yield-stress 1 --contact-elements 40",
+     "--support halfplane --load 100 --mu .01 --force 0 --yield-stress 1 --hardening 100 "
+     "--contact-elements 40"},
     {"not-unique", "The whole contact slides", ROLLS "--force-ratio -1",
      ROLLS "--force 40 --yield-stress 10 --hardening 1e5"},
     {"steep-fall", "other solutions may exist", FALLS "0.1", FALLS "100"},
@@ -354,6 +363,7 @@ static int write_gaps(void)
     write_file("chamfer.txt", "-4 .6\n-1 0\n1 0\n4 .6\n");
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
     write_file("drawn.txt", "load force_ratio\n300 0\n600 0\n600 0.9\n");
+    write_file("little.txt", "load force_ratio\n300 0\n600 0\n600 0.1\n");
     write_file("pulled.txt", "force\n0.0268382\n-0.0623\n");
     write_file("light.txt", "load force_ratio\n0.05 0.2\n0.1 0.2\n300 0.5\n300 -0.5\n");
     write_file("sudden.txt", "load force\n0.01 0\n100 15\n");

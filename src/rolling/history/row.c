@@ -319,13 +319,14 @@ int rb_rolling_row_is_not_unique(const history_state *r)
     const rb_contact_state *state = &model->state;
     int stick = 0;
 
-    if (!p->force_given || p->yield || !(p->mu > 0.0) || rb_rolling_law_depends_on_state(model->rc))
+    if (!p->force_given || rb_rolling_carries_more_with_slip(model->rc) || !(p->mu > 0.0) ||
+        rb_rolling_law_depends_on_state(model->rc))
         return 0;
     for (int i = 0; i < state->n; i++)
         stick += state->zone[i] == RB_ZONE_STICK;
     return rb_rolling_slips_both_ways(state->n, state->zone) &&
-           stick == rb_rolling_count_at_bound(state->n, state->zone, state->p, state->q, p->bound,
-                                              p->mu);
+           stick == rb_rolling_count_at_bound(model->rc, state->n, state->zone, state->p, state->q,
+                                              p->bound, p->mu);
 }
 
 rb_status rb_rolling_row_compute(history_state *r, int steps, rb_message *why)

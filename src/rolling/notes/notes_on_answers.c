@@ -28,13 +28,14 @@ int rb_rolling_is_below_zero(double dissipation, double load)
 }
 
 /* Beyond full sliding the force does not change: it does not tell the creepage.  At the end
- * of a range of solutions an element sticks whose friction is at its bound.  An interface that
- * hardens carries more with more slip. */
+ * of a range of solutions an element sticks whose friction is at its bound. */
 static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    const int held = s->stick - rb_rolling_count_at_bound(s->n, s->zone, s->p, s->q, s->mu, rc->mu);
+    const int held =
+        s->stick - rb_rolling_count_at_bound(rc, s->n, s->zone, s->p, s->q, s->mu, rc->mu);
 
-    if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 || s->yielding > 0 ||
+    if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 ||
+        (s->yielding > 0 && rb_rolling_carries_more_with_slip(rc)) ||
         !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))
         return 0;
     if (rb_rolling_slips_both_ways(s->n, s->zone))

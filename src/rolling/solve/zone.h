@@ -52,11 +52,14 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_cont
 
 /* ---- at_bound.c ------------------------------------------------------------- */
 
+/* 1: a third body yields, and hardens or softens, so that a force tells the slip even where
+ * nothing sticks. */
+int rb_rolling_carries_more_with_slip(const rb_rolling_case *rc);
 /* Of n elements with their coefficients mu (NULL: `one` everywhere): those that stick at the bound
- * of their friction. */
-int rb_rolling_count_at_bound(int n, const int *zone, const double *p, const double *q,
-                              const double *mu, double one);
-/* 1: some of n elements slip with q = -mu p and others with q = +mu p. */
+ * of their friction, or of a third body that does not harden. */
+int rb_rolling_count_at_bound(const rb_rolling_case *rc, int n, const int *zone, const double *p,
+                              const double *q, const double *mu, double one);
+/* 1: some of n elements slip or yield with q < 0 and others with q > 0. */
 int rb_rolling_slips_both_ways(int n, const int *zone);
 
 #endif
