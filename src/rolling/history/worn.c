@@ -91,20 +91,21 @@ static rb_status press(wear_state *r, rb_message *why)
     return RB_OK;
 }
 
-/* As many more elements of the same length on either side; what is worn stays where it
- * is. */
+/* As many more elements of the same length on either side, of a wheel of the same arc, so that the
+ * others stay where they are; what is worn stays where it is. */
 static rb_status widen(wear_state *r, rb_message *why)
 {
     const int n = r->n, more = n / 4 + 2;
     wear_state wider = *r;
 
-    if (!rb_rolling_can(&r->rc, RB_BODY_FLAT))
-        return rb_fail(why, RB_ZONE,
-                       "the contact becomes wider than the zone, which cannot grow on "
-                       "wheels; give a wider one (--zone)");
     wider.rc.contact_elements = n + 2 * more;
-    wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
-    const double radius = fmin(fabs(r->rc.a.radius), fabs(r->rc.b.radius));
+    const double radius = fmin(fabs(r->rc.a.radius), fabs(r->rc.b.radius)),
+                 arc = rb_rolling_body_can(&r->rc.a, RB_BODY_FLAT) ? 0.0 : r->rc.a.radius,
+                 factor = (n + 2.0 * more) / n,
+                 angle = arc > 0.0 ? factor * asin(r->rc.zone / arc) : 0.0;
+    wider.rc.zone = !(arc > 0.0)     ? r->rc.zone * factor
+                    : angle < M_PI_2 ? arc * sin(angle)
+                                     : arc * angle;
     if (wider.rc.zone >= radius)
         return rb_fail(why, RB_ZONE,
                        "the contact becomes as wide as a body: it would need a zone of %g mm, and "
