@@ -461,7 +461,8 @@ static int product_of(const char *kind, product *u)
 }
 
 /* The factor of the unit `name` to a kind. */
-static int find(const char *name, size_t length, const char *kind, int folds, rb_unit_factor *to)
+static int find_factor(const char *name, size_t length, const char *kind, int folds,
+                       rb_unit_factor *to)
 {
     product like, u;
     if (!product_of(kind, &like) || !read_unit(name, length, &like, folds, &u))
@@ -511,7 +512,7 @@ int rb_unit_of_system(rb_units system, const char *unit, rb_unit_factor *f)
     *f = (rb_unit_factor){0, 1.0, 1.0};
     const int k = system == RB_UNITS_MM || !unit ? KINDS : kind_of(unit);
     return k < KINDS && strcmp(kinds[k].name[system], unit) != 0 &&
-           find(kinds[k].name[system], strlen(kinds[k].name[system]), unit, 0, f);
+           find_factor(kinds[k].name[system], strlen(kinds[k].name[system]), unit, 0, f);
 }
 
 double rb_unit_shown(rb_units system, const char *unit, double x)
@@ -635,7 +636,7 @@ void rb_unit_translate(rb_units system, char *line, size_t size)
 }
 
 /* Why the text, whose unit is not one of the kind, is refused. */
-static rb_status refuse(const char *text, const char *name, const char *kind, rb_message *why)
+static rb_status refuse_unit(const char *text, const char *name, const char *kind, rb_message *why)
 {
     product u, like;
     char list[200];
@@ -686,7 +687,7 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
         return rb_fail(why, RB_EINVAL, "a number with a decimal point, %.*s.%.20s; got '%.60s'",
                        (int)(end - text < 20 ? end - text : 20), text, end + 1, text);
     const char *name = end + strspn(end, " ");
-    if (find(name, strlen(name), unit, 0, &to)) {
+    if (find_factor(name, strlen(name), unit, 0, &to)) {
         *value = rb_unit_times(&to, *value);
         return isfinite(*value) ? RB_OK : RB_EINVAL;
     }
@@ -695,7 +696,7 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
     /* what does not begin like a unit is no number at all */
     if (!rb_unit_is_known(name) && strpbrk(name, "0123456789+-., ()"))
         return RB_EINVAL;
-    return refuse(text, name, unit, why);
+    return refuse_unit(text, name, unit, why);
 }
 
 /* ---- Headings ---------------------------------------------------------------------- */
@@ -748,5 +749,5 @@ rb_status rb_unit_of_heading(const char *heading, const char *name, const char *
         return RB_OK;
     }
     *plain = 0;
-    return find(rest, length, unit, 1, factor) ? RB_OK : RB_EFORMAT;
+    return find_factor(rest, length, unit, 1, factor) ? RB_OK : RB_EFORMAT;
 }

@@ -93,8 +93,8 @@ static rb_status set_values(rb_bem_loaded *l, const rb_bem_mesh *mesh, rb_bem_ma
 }
 
 /* y = H u - G t, in the same order of the sum whenever as many threads compute it. */
-static rb_status residual(const rb_bem_mesh *mesh, rb_bem_material material, const double *u,
-                          const double *t, double *y)
+static rb_status boundary_residual(const rb_bem_mesh *mesh, rb_bem_material material,
+                                   const double *u, const double *t, double *y)
 {
     const int n = mesh->n, dofs = 2 * n,
               threads = (double)n * n > rb_pairs_for_threads ? rb_blas_loop_threads() : 1;
@@ -160,7 +160,7 @@ rb_status rb_bem_loaded_create(const rb_bem_system *system, rb_bem_normals norma
     if (s == RB_OK)
         s = rb_bem_system_solve_values(system, l->value, l->u, l->t);
     if (s == RB_OK)
-        s = residual(mesh, system->material, l->u, l->t, l->left);
+        s = boundary_residual(mesh, system->material, l->u, l->t, l->left);
     if (s == RB_OK) {
         contact_displacement(l, mesh, l->u, l->w);
         *loaded = l;
@@ -188,7 +188,7 @@ rb_status rb_bem_loaded_change(rb_bem_loaded *l, const rb_bem_mesh *mesh, rb_bem
         u[dof] = held ? l->value[dof] : l->u[dof];
         t[dof] = held ? l->t[dof] : l->value[dof];
     }
-    s = residual(mesh, material, u, t, left);
+    s = boundary_residual(mesh, material, u, t, left);
     for (int dof = 0; dof < n; dof++)
         left[dof] = l->left[dof] - left[dof];
     if (s == RB_OK)

@@ -177,8 +177,9 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
 }
 
 /* few: loads; a dense matrix is then left as it is. */
-static rb_status make(const rb_bem_mesh *mesh, rb_bem_material material, int dense, int few,
-                      double compression, rb_bond *bond, rb_bem_system **system, rb_message *why)
+static rb_status make_system(const rb_bem_mesh *mesh, rb_bem_material material, int dense, int few,
+                             double compression, rb_bond *bond, rb_bem_system **system,
+                             rb_message *why)
 {
     *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
@@ -256,13 +257,14 @@ rb_status rb_bem_system_make(const rb_bem_mesh *mesh, rb_bem_material material, 
                              double compression, rb_bond *bond, rb_bem_system **system,
                              rb_message *why)
 {
-    return make(mesh, material, dense, 0, compression, bond, system, why);
+    return make_system(mesh, material, dense, 0, compression, bond, system, why);
 }
 
 rb_status rb_bem_system_create_for_few(const rb_bem_mesh *mesh, rb_bem_material material,
                                        double compression, rb_bem_system **system, rb_message *why)
 {
-    return make(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, 1, compression, NULL, system, why);
+    return make_system(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, 1, compression, NULL, system,
+                       why);
 }
 
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,

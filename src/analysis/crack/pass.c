@@ -49,7 +49,7 @@ rb_status rb_crack_history_alloc(const rb_crack *c, int steps, int elements, rb_
 }
 
 /* In the order of rb_crack_history_alloc. */
-static void record(const rb_crack_state *state, double x, size_t steps, rb_crack_history *h)
+static void record_state(const rb_crack_state *state, double x, size_t steps, rb_crack_history *h)
 {
     const size_t n = (size_t)state->n, k = (size_t)h->n++, m = (size_t)h->elements;
     const double value[COLUMNS] = {x,
@@ -180,7 +180,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
             h->n = k - step; /* the results are those of the last complete pass */
             rb_fail(why, s, "interrupted after pass %d of %d", k / p->steps, p->passes);
         } else if (s == RB_OK)
-            record(&state, x, (size_t)n, h);
+            record_state(&state, x, (size_t)n, h);
         else if (s > 0)
             rb_fail(why, s, "crack: step %d, contact at x = %g: %.300s", k + 1, x,
                     rb_status_reason(s, &reason));

@@ -271,7 +271,7 @@ typedef struct {
 
 /* The case with one variable changed, for the derivative by it. All variations keep the table of
  * the gap at x, which rb_case_resolve would read from its file. */
-static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_message *why)
+static rb_status vary_variable(void *context, double value, rb_rolling_case *rc, rb_message *why)
 {
     const variation *v = context;
 
@@ -326,8 +326,9 @@ static void read_functions(const rb_design *d, const rb_rolling_solution *s,
 
 /* The gradients of all functions at x, by one factorisation of J (D2); column j of `gradient` is
  * that of variable j. */
-static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_case *rc,
-                               const rb_rolling_model *model, const rb_rolling_solution *solution)
+static rb_status differentiate_functions(problem *p, const rb_case *at, const rb_rolling_case *rc,
+                                         const rb_rolling_model *model,
+                                         const rb_rolling_solution *solution)
 {
     const rb_design *d = p->d;
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
@@ -342,13 +343,13 @@ static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_c
         const int is_gap = j >= d->gap_from && j < d->gap_from + d->gap_n;
         rb_sensitivity_derivative by;
         variation varied = {.p = p, .rc = rc, .entry = j - d->gap_from};
-        rb_sensitivity_input input = {p->x[j], v->high - v->low, -INFINITY, INFINITY,
-                                      vary,    &varied};
+        rb_sensitivity_input input = {p->x[j],  v->high - v->low, -INFINITY,
+                                      INFINITY, vary_variable,    &varied};
         for (int k = 0; k < numbers && !is_gap; k++)
             if (strcmp(number[k].name, v->name) == 0) {
                 varied.input = &number[k].input;
                 input = number[k].input;
-                input.vary = vary;
+                input.vary = vary_variable;
                 input.context = &varied;
             }
         status = rb_sensitivity_differentiate(s, &input, &by, p->why);
@@ -385,7 +386,7 @@ static rb_status check_known(problem *p, rb_rolling_formulation formulation)
 
 /* Solves the case at x: values of all functions, their gradients, and whether x is the best so
  * far. */
-static rb_status evaluate(problem *p, const double *x)
+static rb_status evaluate_at(problem *p, const double *x)
 {
     rb_design *d = p->d;
     rb_case *at = rb_case_copy(p->c);
@@ -412,7 +413,7 @@ static rb_status evaluate(problem *p, const double *x)
     if (s == RB_OK) {
         read_functions(d, &solution, NULL, p->value, 1);
         p->value[0] = d->input ? x[d->input_at] : p->value[0];
-        s = differentiate(p, at, &rc, &model, &solution);
+        s = differentiate_functions(p, at, &rc, &model, &solution);
         s = s == RB_OK ? check_known(p, rc.formulation) : s;
     }
     if (s == RB_OK) {
@@ -460,7 +461,7 @@ typedef struct {
 
 /* NLopt asks for each function separately, at the same point: the case is solved once for all of
  * them. */
-static double call(unsigned n, const double *u, double *gradient, void *context)
+static double function_value(unsigned n, const double *u, double *gradient, void *context)
 {
     function *f = context;
     problem *p = f->p;
@@ -475,7 +476,7 @@ static double call(unsigned n, const double *u, double *gradient, void *context)
         same = same && x[j] == p->x[j];
     }
     if (!same && p->status == RB_OK) {
-        const rb_status s = evaluate(p, x);
+        const rb_status s = evaluate_at(p, x);
         p->failed = s != RB_OK;
         p->reason = p->failed ? *p->why : p->reason;
         p->status = s == RB_ENOMEM || s == RB_INTERRUPTED ? s : RB_OK;
@@ -494,7 +495,7 @@ static double call(unsigned n, const double *u, double *gradient, void *context)
     return f->scale * (p->value[f->k] - f->bound);
 }
 
-static rb_status search(problem *p)
+static rb_status search_best(problem *p)
 {
     /* Sequential quadratic programming on variables of 0 to 1, with functions of order 1: the
      * objective over its value at the start, constraints over their bounds. */
@@ -510,7 +511,7 @@ static rb_status search(problem *p)
         if (c) {
             f[k].scale = (c->at_least ? -1.0 : 1.0) / fmax(fabs(c->bound), 1e-12);
             f[k].bound = c->bound;
-            made = nlopt_add_inequality_constraint(opt, call, &f[k], 0.1 * MISSED) > 0;
+            made = nlopt_add_inequality_constraint(opt, function_value, &f[k], 0.1 * MISSED) > 0;
         }
     }
     if (!made || nlopt_set_lower_bounds1(opt, 0.0) < 0 || nlopt_set_upper_bounds1(opt, 1.0) < 0) {
@@ -518,12 +519,12 @@ static rb_status search(problem *p)
         nlopt_destroy(opt);
         return rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
     }
-    nlopt_set_min_objective(opt, call, &f[0]);
+    nlopt_set_min_objective(opt, function_value, &f[0]);
     nlopt_set_ftol_rel(opt, 1e-9);
     nlopt_set_ftol_abs(opt, 1e-9);
     nlopt_set_xtol_rel(opt, 1e-9);
     nlopt_set_maxeval(opt, d->most > 0 ? d->most : EVALUATIONS);
-    p->status = evaluate(p, p->best); /* the start, for its size */
+    p->status = evaluate_at(p, p->best); /* the start, for its size */
     if (p->status == RB_OK) {
         p->known = 1;
         f[0].scale /=
@@ -560,9 +561,9 @@ static rb_status search(problem *p)
 #else
 
 /* Not reached: rb_design_available. */
-static rb_status search(problem *p)
+static rb_status search_best(problem *p)
 {
-    return evaluate(p, p->best);
+    return evaluate_at(p, p->best);
 }
 
 #endif
@@ -594,7 +595,7 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
     for (int j = 0; j < d->n && p.best; j++)
         p.best[j] = d->variable[j].start;
     if (s == RB_OK)
-        s = search(&p);
+        s = search_best(&p);
     for (int j = 0; j < d->n && p.best; j++)
         d->variable[j].value = p.best[j];
     if (s == RB_OK && !(p.best_value < INFINITY))

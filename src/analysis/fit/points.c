@@ -30,7 +30,7 @@ static int are_alike(const rb_case_data *d, int i, int j)
 
 /* The options of a point are those of the case, with the numbers theta, and with what the row of
  * the data says of the point itself. */
-static rb_status resolve(const place *at, double value, rb_rolling_case *rc, rb_message *why)
+static rb_status resolve_point(const place *at, double value, rb_rolling_case *rc, rb_message *why)
 {
     const fit_problem *p = at->p;
     const rb_case_data *d = p->data;
@@ -79,7 +79,7 @@ static rb_status case_at(void *context, double value, rb_rolling_case *rc, rb_me
     if (known < p->known + p->known_n) {
         *rc = known->rc;
     } else {
-        s = resolve(at, value, rc, why);
+        s = resolve_point(at, value, rc, why);
         if (s == RB_OK && p->known_n < FIT_CASES)
             p->known[p->known_n++] = (fit_case){varied, at->point, x, *rc};
     }
@@ -97,7 +97,7 @@ static const rb_rolling_model *model_below(const fit_problem *p, int k, int whic
 }
 
 /* The force in the measure of the data. */
-static double measure(const fit_problem *p, const rb_rolling_model *model)
+static double measured_force(const fit_problem *p, const rb_rolling_model *model)
 {
     const double Q = rb_contact_force(&model->problem, &model->state),
                  P = rb_contact_load(&model->problem, &model->state);
@@ -128,14 +128,14 @@ static rb_sensitivity_input input_of(const fit_problem *p, int j, double value, 
 
 /* The derivatives of the force at a solved point with respect to all parameters: one
  * adjoint solve. */
-static rb_status differentiate(fit_problem *p, const double *theta, int k,
-                               const rb_rolling_model *model, const rb_sensitivity *s, double *row,
-                               rb_message *why)
+static rb_status differentiate_force(fit_problem *p, const double *theta, int k,
+                                     const rb_rolling_model *model, const rb_sensitivity *s,
+                                     double *row, rb_message *why)
 {
     /* The force is a linear form of p and q, divided by P where the data are: d(Q/P) = (dQ - Q/P
      * dP)/P. */
     const rb_contact_problem *q = &model->problem;
-    const double P = rb_contact_load(q, &model->state), f = measure(p, model);
+    const double P = rb_contact_load(q, &model->state), f = measured_force(p, model);
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
     const double scale = p->data->measure == RB_CASE_FORCE ? 1.0
                          : ratio                           ? 1.0 / (q->mu * P)
@@ -236,7 +236,7 @@ rb_status rb_case_fit_try(fit_problem *p, const double *theta, double *chi2, rb_
     for (int k = 0; k < p->points && s == RB_OK; k++) {
         s = solve_point(p, theta, k, trial, why);
         if (s == RB_OK)
-            p->f[k] = rb_case_fit_residual(p, k, measure(p, &p->at[k].solved[trial]));
+            p->f[k] = rb_case_fit_residual(p, k, measured_force(p, &p->at[k].solved[trial]));
     }
     *chi2 = s == RB_OK ? fit_dot(p->points, p->f, p->f) : INFINITY;
     return s;
@@ -258,11 +258,11 @@ rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *wh
         if (s == RB_OK && rb_rolling_law_depends_on_state(model->rc))
             s = rb_rolling_law_kappa(model, &kappa);
         if (s == RB_OK)
-            s = differentiate(p, theta, k, model, p->at[k].factors[trial], row, why);
+            s = differentiate_force(p, theta, k, model, p->at[k].factors[trial], row, why);
         if (s != RB_OK)
             break;
         p->kappa = fmax(p->kappa, kappa);
-        p->fit->model[k] = measure(p, model);
+        p->fit->model[k] = measured_force(p, model);
         for (int j = 0; j < p->n; j++)
             p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma_of(p, k);
     }
@@ -281,11 +281,11 @@ rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int ele
         rb_sensitivity_extend(p->at[k].factors[p->accepted], element, zone, &v, &s, why);
 
     if (status == RB_OK)
-        status = differentiate(p, theta, k, &v, s, row, why);
+        status = differentiate_force(p, theta, k, &v, s, row, why);
     for (int j = 0; j < p->n && status == RB_OK; j++)
         row[j] /= sigma_of(p, k);
     if (status == RB_OK)
-        *f = rb_case_fit_residual(p, k, measure(p, &v));
+        *f = rb_case_fit_residual(p, k, measured_force(p, &v));
     rb_sensitivity_free(s);
     rb_rolling_variant_free(model, &v);
     return status;
@@ -370,7 +370,8 @@ rb_status rb_case_fit_sum(fit_problem *p, const double *theta, double limit, dou
             if (s == RB_OK && !model->state.p)
                 s = solve_point(p, theta, k, trial, why);
         }
-        const double residual = s == RB_OK ? rb_case_fit_residual(p, k, measure(p, model)) : NAN;
+        const double residual =
+            s == RB_OK ? rb_case_fit_residual(p, k, measured_force(p, model)) : NAN;
         *sum += residual * residual;
         if (f)
             f[k] = residual;

@@ -47,7 +47,7 @@ static void normal_equations(const rb_prony_data *d, const rb_prony_series *s, d
     }
 }
 
-static void measure(const rb_prony_data *d, rb_prony_series *s)
+static void measure_misfit(const rb_prony_data *d, rb_prony_series *s)
 {
     double sum = 0.0;
     s->largest = -1.0;
@@ -75,7 +75,7 @@ static void take_out(rb_prony_series *s, int k)
 
 /* Fits E_g and the ratios of the times of s.  Terms of 0 are taken out; so is the shortest time as
  * long as nothing is left for J_g: beyond the data both are the same. */
-static rb_status fit(const rb_prony_data *d, rb_prony_series *s, rb_message *why)
+static rb_status fit_ratios(const rb_prony_data *d, rb_prony_series *s, rb_message *why)
 {
     rb_arena scratch = {0};
     const size_t most = (size_t)s->terms + 1;
@@ -107,7 +107,7 @@ static rb_status fit(const rb_prony_data *d, rb_prony_series *s, rb_message *why
     for (int k = s->terms - 1; k >= 0; k--)
         if (!(s->ratio[k] > 0.0))
             take_out(s, k);
-    measure(d, s);
+    measure_misfit(d, s);
     return rb_arena_done(&scratch, RB_OK);
 }
 
@@ -130,7 +130,7 @@ static rb_status fit_spaced(const rb_prony_data *d, int n, rb_prony_series *s, r
         s->time[k] = pow(10.0, shortest + k / s->per_decade);
         s->place[k] = k;
     }
-    return fit(d, s, why);
+    return fit_ratios(d, s, why);
 }
 
 /* How many times there are at this spacing or the next closer one that meets both ends. */
@@ -193,7 +193,7 @@ rb_status rb_prony_join(const rb_prony_data *d, rb_prony_series *s, rb_message *
         one.place[k] = JOINED;
         one.joined++;
         take_out(&one, k + 1);
-        const rb_status status = fit(d, &one, why);
+        const rb_status status = fit_ratios(d, &one, why);
         if (status != RB_OK)
             return status;
         if (one.rms < s->rms)

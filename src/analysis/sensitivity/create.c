@@ -12,7 +12,7 @@ static const double SOLVED = 1e-8;
 
 /* ---- What a model has to be -------------------------------------------------------- */
 
-static rb_status check(const rb_rolling_model *model, rb_message *why)
+static rb_status check_model(const rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_case *rc = model->rc;
     const rb_contact_state *state = &model->state;
@@ -80,8 +80,8 @@ static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
 }
 
 /* closely: a model whose boundaries are compressed is replaced by one of closer ones. */
-static rb_status create(const rb_rolling_model *model, const rb_sensitivity *like, int closely,
-                        rb_sensitivity **made, rb_message *why)
+static rb_status create_sensitivity(const rb_rolling_model *model, const rb_sensitivity *like,
+                                    int closely, rb_sensitivity **made, rb_message *why)
 {
     rb_sensitivity *s = *made = calloc(1, sizeof *s);
     rb_status status = RB_OK;
@@ -95,7 +95,7 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
     else if (model->problem.yield || rb_rolling_law_depends_on_state(model->rc))
         status = take_matrix(s, why);
     if (status == RB_OK)
-        status = check(s->model, why);
+        status = check_model(s->model, why);
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
     s->border = calloc((size_t)s->n, 1);
@@ -154,13 +154,13 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
         !rb_contact_operator_response(model->problem.op).coupled)
         return RB_OK;
     if (model->freely) /* the solve has found it */
-        return create(model->freely, NULL, 0, &s->free_rolling, why);
+        return create_sensitivity(model->freely, NULL, 0, &s->free_rolling, why);
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     status = rc->mesh == RB_MESH_UNIFORM ? rb_rolling_variant_solve(model, &freely, v, why)
                                          : rb_rolling_model_create(&freely, v, why);
-    return status == RB_OK ? create(v, NULL, 0, &s->free_rolling, why) : status;
+    return status == RB_OK ? create_sensitivity(v, NULL, 0, &s->free_rolling, why) : status;
 }
 
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
@@ -174,7 +174,7 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
         return rb_fail(why, RB_EINVAL,
                        "derivatives: this case has several steps; ask for those of its "
                        "history, step by step");
-    status = create(model, NULL, results, s, why);
+    status = create_sensitivity(model, NULL, results, s, why);
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status == RB_OK && results) {
@@ -199,7 +199,7 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
 rb_status rb_sensitivity_create_like(const rb_rolling_model *model, const rb_sensitivity *like,
                                      rb_sensitivity **s, rb_message *why)
 {
-    const rb_status status = create(model, like, 0, s, why);
+    const rb_status status = create_sensitivity(model, like, 0, s, why);
 
     if (status != RB_OK) {
         rb_sensitivity_free(*s);

@@ -65,7 +65,7 @@ static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double v
     return copy;
 }
 
-static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_message *why)
+static rb_status vary_number(void *context, double value, rb_rolling_case *rc, rb_message *why)
 {
     const rb_case_number *number = context;
     rb_case *copy = varied(number->c, number->option, number->entry, value);
@@ -143,7 +143,7 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
                                        .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
                                        .from = o->range.from,
                                        .to = o->range.to,
-                                       .vary = vary,
+                                       .vary = vary_number,
                                        .context = it};
         }
     }
@@ -257,9 +257,9 @@ static void differentiate_by(const rb_sensitivity *s, const rb_sensitivity_jumps
     }
 }
 
-static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
-                               kind_of_derivatives kind, int n, const char *const *names,
-                               rb_case_derivatives *all, rb_message *why)
+static rb_status differentiate_all(const rb_case *c, const rb_rolling_model *model,
+                                   kind_of_derivatives kind, int n, const char *const *names,
+                                   rb_case_derivatives *all, rb_message *why)
 {
     int numbers;
     rb_sensitivity *s = NULL;
@@ -307,21 +307,21 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all, rb_message *why)
 {
-    return differentiate(c, model, AND_OVER_X, n, names, all, why);
+    return differentiate_all(c, model, AND_OVER_X, n, names, all, why);
 }
 
 rb_status rb_case_differentiate_by_numbers(const rb_case *c, const rb_rolling_model *model, int n,
                                            const char *const *names, rb_case_derivatives *all,
                                            rb_message *why)
 {
-    return differentiate(c, model, BY_NUMBERS, n, names, all, why);
+    return differentiate_all(c, model, BY_NUMBERS, n, names, all, why);
 }
 
 rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_model *model, int n,
                                          const char *const *names, rb_case_derivatives *all,
                                          rb_message *why)
 {
-    return differentiate(c, model, SMOOTH, n, names, all, why);
+    return differentiate_all(c, model, SMOOTH, n, names, all, why);
 }
 
 rb_status rb_case_differentiate_by_tolerances(const rb_case *c, const rb_rolling_model *model,
@@ -332,7 +332,7 @@ rb_status rb_case_differentiate_by_tolerances(const rb_case *c, const rb_rolling
 
     for (int k = 0; k < t->n; k++)
         name[k] = t->name[k];
-    return differentiate(c, model, SMOOTH_WHERE_POSSIBLE, t->n, name, all, why);
+    return differentiate_all(c, model, SMOOTH_WHERE_POSSIBLE, t->n, name, all, why);
 }
 
 /* A derivative has the unit of the result over that of the number; those by the gap are per length

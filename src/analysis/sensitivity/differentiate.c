@@ -152,9 +152,10 @@ static rb_status differentiate_side(const rb_sensitivity *s, rb_sensitivity_vari
 
 /* On the sides that d has.  others: variants for the same input, of the model to which this is
  * free rolling; NULL: it is not. */
-static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
-                               const rb_sensitivity_variants *others, rb_sensitivity_variants *v,
-                               rb_sensitivity_derivative *d, rb_message *why)
+static rb_status differentiate_sides(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                     const rb_sensitivity_variants *others,
+                                     rb_sensitivity_variants *v, rb_sensitivity_derivative *d,
+                                     rb_message *why)
 {
     rb_status status =
         rb_sensitivity_variants_create(s->model, input, others, others != NULL, v, why);
@@ -215,7 +216,7 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
         if (!f)
             return RB_ENOMEM;
         memcpy(f->has, d->has, sizeof f->has);
-        status = differentiate(freely, input, of, &v, f, why);
+        status = differentiate_sides(freely, input, of, &v, f, why);
         rb_sensitivity_variants_free(&v);
     }
     if (d->free_rolling && status != RB_OK && status != RB_ENOMEM) {
@@ -247,7 +248,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     d->has[0] = both || v.at.place[1] < 0.0;
     d->has[1] = both ? two : !d->has[0];
     if (status == RB_OK)
-        status = differentiate(s, input, NULL, &v, d, why);
+        status = differentiate_sides(s, input, NULL, &v, d, why);
     if (status == RB_OK && both && !d->has[1] && rb_sensitivity_strain_has_sides(s, d->strain[0])) {
         d->has[1] = 1;
         status = differentiate_side(s, &v, 1, d, why);
@@ -402,7 +403,7 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
         rb_message why;
         m.kind = k ? SHIFT : STRETCH;
         s->motion[k].has[0] = 1;
-        status = differentiate(s, &input, NULL, &v, &s->motion[k], &why);
+        status = differentiate_sides(s, &input, NULL, &v, &s->motion[k], &why);
         rb_sensitivity_variants_free(&v);
         if (status == RB_OK && v.results)
             rb_sensitivity_clean(s, m.half, &s->motion[k].value[0]);

@@ -52,8 +52,9 @@ static int change_zones(rb_rolling_model *v, const double *gap, const double *sl
 
 /* The equations of v with the Jacobian `at`, and with own ones where it does not do: like
  * the one of s.  may_change: 1: elements take the zones that they ask for. */
-static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int may_change,
-                         rb_rolling_model *v, rb_sensitivity **own, rb_message *why)
+static rb_status iterate_equations(const rb_sensitivity *s, const rb_sensitivity *at,
+                                   int may_change, rb_rolling_model *v, rb_sensitivity **own,
+                                   rb_message *why)
 {
     enum { STEPS = 20, JACOBIANS = 6 };
     /* Steps that shrink less are more of them than a new Jacobian costs. */
@@ -111,7 +112,7 @@ rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb
     rb_sensitivity *own = NULL;
 
     rb_rolling_variant_set(&s->model->state, NULL, 0.0, &v->state);
-    rb_status status = iterate(s, s, v->bodies.F && !v->problem.yield, v, &own, why);
+    rb_status status = iterate_equations(s, s, v->bodies.F && !v->problem.yield, v, &own, why);
     if (status == RB_OK || status == RB_MAXITER)
         status = rb_contact_residual(&v->problem, &v->state, &violation);
     v->state.residual = violation.scaled;
@@ -133,6 +134,6 @@ rb_status rb_sensitivity_extend(const rb_sensitivity *s, int element, int zone, 
     if (status == RB_OK)
         status = linearise(v, s, extended, why);
     if (status == RB_OK)
-        status = iterate(s, *extended, 0, v, extended, why);
+        status = iterate_equations(s, *extended, 0, v, extended, why);
     return status == RB_OK ? linearise(v, s, extended, why) : status;
 }

@@ -120,7 +120,7 @@ static rb_status fail_short_zone(int i, rb_message *why)
                    i + 1);
 }
 
-static rb_status check(const rb_sensitivity *s, rb_message *why)
+static rb_status check_smooth(const rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_friction *f = &s->model->rc->friction;
 
@@ -151,11 +151,11 @@ static int is_boundary(const rb_sensitivity *s, int i)
     return kind_of(s, i) * kind_of(s, i + 1) != 0 && kind_of(s, i) != kind_of(s, i + 1);
 }
 
-static rb_status create(const rb_sensitivity *s, rb_sensitivity_jumps **made, rb_message *why)
+static rb_status create_jumps(const rb_sensitivity *s, rb_sensitivity_jumps **made, rb_message *why)
 {
     rb_sensitivity_rate rate = {0};
     rb_sensitivity_jumps *jumps = *made = calloc(1, sizeof *jumps);
-    rb_status status = check(s, why);
+    rb_status status = check_smooth(s, why);
     int all = 0;
 
     for (int i = 0; i + 1 < s->n; i++)
@@ -197,10 +197,10 @@ rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_ju
     *made = NULL;
     if (s->solution.n == 0)
         return rb_fail(why, RB_EINVAL, "smooth derivatives: made without results");
-    rb_status status = create(s, made, why);
+    rb_status status = create_jumps(s, made, why);
     /* free rolling may have none where the case has */
     if (status == RB_OK && s->free_rolling &&
-        create(s->free_rolling, &(*made)->freely, &reason) == RB_ENOMEM) {
+        create_jumps(s->free_rolling, &(*made)->freely, &reason) == RB_ENOMEM) {
         rb_sensitivity_jumps_free(*made);
         *made = NULL;
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");

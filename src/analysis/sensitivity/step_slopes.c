@@ -91,8 +91,8 @@ static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
 
 /* The four histories at values beside the number, with the longest step for which the elements stay
  * on their sides of the contact.  Free v in any case. */
-static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_rolling_follower *base,
-                      varied *v, rb_message *why)
+static rb_status vary_history(const rb_case *c, const rb_rolling_states *states,
+                              rb_rolling_follower *base, varied *v, rb_message *why)
 {
     enum { TRIALS = 3 };
     const rb_sensitivity_input *input = &v->number->input;
@@ -401,7 +401,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
         for (int j = 0; j < asked && status == RB_OK; j++)
             if (strcmp(number[k].name, name[j]) == 0) {
                 v[n].number = &number[k];
-                status = vary(c, states, base, &v[n++], why);
+                status = vary_history(c, states, base, &v[n++], why);
             }
     if (status == RB_OK)
         status = all_steps(states, base, n, v, s, &can, why);

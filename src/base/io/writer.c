@@ -37,7 +37,7 @@ static char *beside(const char *target, const char *name)
 }
 
 /* The file behind all links, which need not exist yet; owned by the caller. */
-static char *resolve(const char *path)
+static char *resolve_path(const char *path)
 {
     char to[PATH_MAX];
     char *real = realpath(path, NULL);
@@ -48,7 +48,7 @@ static char *resolve(const char *path)
         return strdup(path);
     to[n] = '\0';
     char *next = to[0] == '/' ? strdup(to) : beside(path, to);
-    real = next ? resolve(next) : NULL;
+    real = next ? resolve_path(next) : NULL;
     free(next);
     return real;
 }
@@ -71,7 +71,7 @@ static char *take_name(const char *target, int (*make)(const char *name, int fd)
     }
 }
 
-static int create(const char *name, int fd)
+static int create_file(const char *name, int fd)
 {
     (void)fd;
     return open(name, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
@@ -100,7 +100,7 @@ static int open_nameless(const char *target)
     if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
         return fd;
 #endif
-    char *name = take_name(target, create, &fd);
+    char *name = take_name(target, create_file, &fd);
     if (name)
         unlink(name);
     free(name);
@@ -121,7 +121,7 @@ rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
         w->device = strdup(path);
         w->file = w->device ? fopen(path, "w") : NULL;
     } else if (!exists || access(path, W_OK) == 0) {
-        w->target = resolve(path);
+        w->target = resolve_path(path);
         fd = w->target ? open_nameless(w->target) : -1;
         if (fd >= 0 && (!exists || fchmod(fd, old.st_mode & 07777) == 0))
             w->file = fdopen(fd, "w+");
@@ -172,7 +172,7 @@ static char *copy_to_name(const char *target, int from)
     char buffer[1 << 14];
     struct stat st = {0};
     int to = -1;
-    char *name = take_name(target, create, &to);
+    char *name = take_name(target, create_file, &to);
     ssize_t n = 0;
     if (!name)
         return NULL;

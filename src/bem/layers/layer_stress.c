@@ -27,7 +27,7 @@ typedef struct {
     double k[GAUSS], c[2][GAUSS], d[2][GAUSS], a[2][GAUSS], b[2][GAUSS];
 } panel;
 
-static void keep(double complex value, double of[2][GAUSS], int g)
+static void keep_value(double complex value, double of[2][GAUSS], int g)
 {
     of[0][g] = creal(value);
     of[1][g] = cimag(value);
@@ -73,11 +73,12 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
     /* f and f' of the layer go on in the base */
     const double complex a =
         p_s[0] * (1.0 + al) * decay + p_s[1] * al * decay + c * al * sh + d * (al * ch - sh);
-    keep(c, w->c, g);
-    keep(d, w->d, g);
-    keep(a, w->a, g);
-    keep(a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay + c * (sh + al * ch) + d * al * sh,
-         w->b, g);
+    keep_value(c, w->c, g);
+    keep_value(d, w->d, g);
+    keep_value(a, w->a, g);
+    keep_value(a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay + c * (sh + al * ch) +
+                   d * al * sh,
+               w->b, g);
 }
 
 struct rb_bem_layer_field {

@@ -51,7 +51,7 @@ static void destroy(rb_fourier *f)
 }
 
 /* In the place of the one that has not been used for longest.  Within the planner's lock. */
-static void keep(const rb_fourier *f)
+static void keep_plan(const rb_fourier *f)
 {
     int oldest = -1;
 
@@ -119,7 +119,7 @@ int rb_fourier_make(int least, rb_fourier *f)
     pthread_mutex_lock(&planner);
     int made = take_kept(f);
     if (!made && (made = plan(f)))
-        keep(f);
+        keep_plan(f);
     pthread_mutex_unlock(&planner);
     return made;
 }

@@ -206,7 +206,7 @@ static int part_for(const products *y, int c)
 }
 
 /* From one part to three.  0: out of memory. */
-static int widen(products *x)
+static int part_into_three(products *x)
 {
     const size_t pairs = (size_t)x->near_first[x->m],
                  modes = ((size_t)x->fourier.size / 2 + 1) * sizeof *x->kernel[0];
@@ -234,7 +234,7 @@ static int products_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
         x->steps != y->steps || memcmp(x->ends, y->ends, ((size_t)x->m + 1) * sizeof *x->ends) != 0)
         return 0;
     rb_bem_surface other = y->plane;
-    if (!own_memory(&x->memory, &other) || (x->parts < y->parts && !widen(x)))
+    if (!own_memory(&x->memory, &other) || (x->parts < y->parts && !part_into_three(x)))
         return 0;
     const size_t pairs = (size_t)x->near_first[x->m];
     for (int c = 0; c < x->parts; c++) {
@@ -431,8 +431,8 @@ static rb_status set_tables(products *o, const double *angles, double step)
 }
 
 /* x: n + 1 midpoints and n + 2 ends, of arcs as angles; taken over. */
-static rb_status make(const products *like, double *x, double step, const double *ends,
-                      rb_bem_flexibility *f)
+static rb_status make_products(const products *like, double *x, double step, const double *ends,
+                               rb_bem_flexibility *f)
 {
     const size_t m = (size_t)f->m;
     const double *end = x + m;
@@ -509,7 +509,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     if (s == RB_OK) {
         rb_bem_flexibility_place(ends, f);
         rb_wheel_chords(wheel->radius, n_c, ends, f->h);
-        s = make(&like, angles, step, ends, f);
+        s = make_products(&like, angles, step, ends, f);
     } else {
         free(angles);
     }
@@ -542,7 +542,7 @@ rb_status rb_bem_flexibility_surface_products(int n_c, const double *ends,
         rb_bem_flexibility_place(ends, f);
         memcpy(x, f->x, (size_t)f->m * sizeof *x);
         memcpy(x + f->m, ends, ((size_t)f->m + 1) * sizeof *x);
-        s = make(&like, x, step, ends, f);
+        s = make_products(&like, x, step, ends, f);
         f->add_mirrored = products_add;
     }
     return rb_bem_flexibility_end("half-plane", n_c, s, f, why);

@@ -164,7 +164,7 @@ static int add_border(plan *pl, border b)
 
 /* Compares kept unknowns from ... to - 1 with the present ones now ... end - 1, both in
  * the order of their elements. */
-static void compare(const kept_lu *k, int from, int to, int now, int end, plan *pl)
+static void compare_zones(const kept_lu *k, int from, int to, int now, int end, plan *pl)
 {
     while (from < to || now < end) {
         const int was = from < to ? k->unknown[from].at : INT_MAX;
@@ -200,8 +200,8 @@ static void make_plan(const rb_contact_problem *p, const int *zone, const rb_con
     for (int c = 0; c < r->sticks; c++)
         *unknown++ = (traction){r->stick[c], 0.0, 1.0};
     pl->count = pl->slight = 0;
-    compare(k, 0, k->contacts, 0, r->contacts, pl);
-    compare(k, k->contacts, k->size, r->contacts, tractions, pl);
+    compare_zones(k, 0, k->contacts, 0, r->contacts, pl);
+    compare_zones(k, k->contacts, k->size, r->contacts, tractions, pl);
     pl->changes = pl->count;
     if (r->load)
         pl->source[tractions] = k->size + add_border(pl, (border){APPROACH, 0, {0}});

@@ -88,8 +88,8 @@ typedef struct {
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
  * back, which ends every cycle, or the corrections no longer become fewer, and no path
  * leads on. */
-static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
-                         rb_contact_state *state)
+static rb_status iterate_zones(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
+                               rb_contact_state *state)
 {
     const size_t bytes = (size_t)p->n * sizeof(int);
     uint64_t hash[MAX_STEPS];
@@ -148,9 +148,9 @@ static rb_status alternate(rb_contact_problem *p, int rounds, workspace *ws,
     rb_status s = RB_OK;
 
     for (int round = 0; round < rounds && s >= 0 && s != RB_SINGULAR; round++) {
-        s = iterate(p, RB_NORMAL, ws, state);
+        s = iterate_zones(p, RB_NORMAL, ws, state);
         if (s >= 0 && s != RB_SINGULAR)
-            s = iterate(p, RB_TANGENTIAL, ws, state);
+            s = iterate_zones(p, RB_TANGENTIAL, ws, state);
     }
     return s;
 }
@@ -166,10 +166,10 @@ static int is_coupled(const rb_contact_problem *p)
 /* From the zones of the state. */
 static rb_status from_zones(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
-    return is_coupled(p) ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
+    return is_coupled(p) ? iterate_zones(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
 }
 
-static void forget(const rb_contact_problem *p)
+static void forget_factors(const rb_contact_problem *p)
 {
     if (p->op->kind->forget)
         p->op->kind->forget(p->op);
@@ -214,12 +214,12 @@ rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_st
             state->xi = problem->force_given ? 0.0 : problem->xi;
             for (int i = 0; i < problem->n; i++)
                 state->zone[i] = RB_ZONE_STICK;
-            forget(problem);
+            forget_factors(problem);
             const int coupled = is_coupled(problem);
             s = alternate(problem, coupled ? STAGGERED_ROUNDS : 1, &ws, state);
             if (s >= 0 && coupled) {
-                forget(problem);
-                s = iterate(problem, RB_BOTH, &ws, state);
+                forget_factors(problem);
+                s = iterate_zones(problem, RB_BOTH, &ws, state);
             }
         }
     }

@@ -117,7 +117,7 @@ static int cross(path *k, const bend *at)
     return begins;
 }
 
-static rb_status follow(path *k)
+static rb_status follow_path(path *k)
 {
     rb_status s = solve_for(k, 0.0, &k->none);
 
@@ -215,7 +215,7 @@ rb_status rb_contact_follow_path(rb_contact_problem *problem, rb_contact_state *
 
     memcpy(k.d_N, problem->d_N, n * sizeof(double));
     memcpy(k.d_T, problem->d_T, n * sizeof(double));
-    const rb_status s = follow(&k);
+    const rb_status s = follow_path(&k);
     set_data(&k, 0.0);
     free(x);
     return s == RB_RAY ? RB_MAXITER : s;

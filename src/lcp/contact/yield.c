@@ -434,7 +434,7 @@ static void hold_one(const laws *k, const rb_contact_state *state, law *next)
 
 /* Solves and corrects until the laws stay; where they come back, one element at a time.
  * RB_MAXITER, RB_SINGULAR, RB_ENOMEM. */
-static rb_status iterate(laws *k, rb_contact_state *state)
+static rb_status iterate_laws(laws *k, rb_contact_state *state)
 {
     uint64_t hash[ROUNDS];
     int single = 0;
@@ -484,7 +484,8 @@ static rb_status iterate(laws *k, rb_contact_state *state)
 
 /* Those of a layer with a higher yield stress come first: half the excess less in each
  * step, or a smaller part of it. */
-static rb_status follow(rb_contact_problem *p, laws *k, double excess, rb_contact_state *state)
+static rb_status lower_yield_stress(rb_contact_problem *p, laws *k, double excess,
+                                    rb_contact_state *state)
 {
     const size_t n = (size_t)p->n;
     law *good = rb_arena_zeros(&k->memory, n, sizeof *good);
@@ -501,7 +502,7 @@ static rb_status follow(rb_contact_problem *p, laws *k, double excess, rb_contac
         memcpy(sign, k->sign, n * sizeof *sign);
         for (int i = 0; i < p->n; i++)
             p->yield[i] = yield[i] + next * excess;
-        s = iterate(k, state);
+        s = iterate_laws(k, state);
         memcpy(p->yield, yield, n * sizeof *yield);
         if (s == RB_OK) {
             share = next;
@@ -546,7 +547,7 @@ rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows, rb_contact
         k.law[i] = of[state->zone[i]];
         k.sign[i] = sign[state->zone[i]];
     }
-    s = follows ? follow(p, &k, excess, state) : iterate(&k, state);
+    s = follows ? lower_yield_stress(p, &k, excess, state) : iterate_laws(&k, state);
     if (s >= 0)
         zones_of_laws(&k, state);
     return rb_arena_done(&k.memory, s);

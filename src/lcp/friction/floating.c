@@ -89,7 +89,7 @@ static rb_status project_on_free_motions(floating *s)
 }
 
 /* d = A x + b, and the gradient A'd. */
-static void differentiate(floating *s, const double *x)
+static void set_gradient(floating *s, const double *x)
 {
     const int k = s->nullity;
     memcpy(s->d, s->b, (size_t)k * sizeof *s->d);
@@ -104,7 +104,7 @@ static void differentiate(floating *s, const double *x)
 }
 
 /* z = Z d at the least |d|, by projected gradients.  |A|_F^2 is not below |A|^2. */
-static void search(floating *s)
+static void search_motion(floating *s)
 {
     const int k = s->nullity;
     const double work = 4.0 * k * s->m, size = rb_friction_norm((size_t)(k * s->m), s->A);
@@ -118,11 +118,11 @@ static void search(floating *s)
                                    .t = 1.0,
                                    .last = INFINITY};
     for (int step = 0; step < STEPS && step * work < OPERATIONS; step++) {
-        differentiate(s, s->ahead);
+        set_gradient(s, s->ahead);
         if (rb_friction_descend(&descent, rb_friction_norm((size_t)k, s->d)) <= 1e-15)
             break;
     }
-    differentiate(s, s->x);
+    set_gradient(s, s->x);
     for (int i = 0; i < s->n; i++) {
         s->z[i] = 0.0;
         for (int a = 0; a < k; a++)
@@ -200,7 +200,7 @@ rb_status rb_friction_floats(const rb_friction_problem *global, int *floats)
     if (st == RB_OK && s.nullity > 0) {
         st = project_on_free_motions(&s);
         if (st == RB_OK) {
-            search(&s);
+            search_motion(&s);
             *floats = proves_nearly(&s);
         }
     }

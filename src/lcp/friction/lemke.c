@@ -206,7 +206,7 @@ static rb_status run_attempt(lemke *s, const attempt *a)
     return st;
 }
 
-static rb_status try(lemke *s, const attempt *a)
+static rb_status try_attempt(lemke *s, const attempt *a)
 {
     rb_friction_task *t = s->task;
     const rb_friction_problem *w = t->shared->local;
@@ -281,7 +281,7 @@ static rb_status run_lemke(rb_friction_task *task, int variant)
     lemke s = {.task = task};
     rb_status first = RB_OK, st = RB_MAXITER;
     for (int k = from; st > 0 && k < to; k++) {
-        st = try(&s, &attempts[k]);
+        st = try_attempt(&s, &attempts[k]);
         if (first == RB_OK || first == RB_SINGULAR)
             first = st; /* what went wrong first is what is told */
         if (st > 0 && rb_friction_task_late(task))

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void put(rb_triplets *t, int row, int col, double x)
+static void add_entry(rb_triplets *t, int row, int col, double x)
 {
     if (x != 0.0)
         rb_triplets_add(t, row, col, x);
@@ -58,14 +58,14 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
             for (int a = 0; a < 3; a++)
                 for (int b = 0; b < 3; b++) {
                     const double x = w->x[4 * (size_t)k + (a > 0) + 2 * (b > 0)];
-                    put(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / by);
+                    add_entry(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / by);
                 }
         }
-        put(&t, nc + c, 3 * nc + c, 1.0);
-        put(&t, 2 * nc + c, 3 * nc + c, 1.0);
-        put(&t, 3 * nc + c, c, local->mu[c]);
-        put(&t, 3 * nc + c, nc + c, -1.0);
-        put(&t, 3 * nc + c, 2 * nc + c, -1.0);
+        add_entry(&t, nc + c, 3 * nc + c, 1.0);
+        add_entry(&t, 2 * nc + c, 3 * nc + c, 1.0);
+        add_entry(&t, 3 * nc + c, c, local->mu[c]);
+        add_entry(&t, 3 * nc + c, nc + c, -1.0);
+        add_entry(&t, 3 * nc + c, 2 * nc + c, -1.0);
     }
     s = q ? rb_sparse_from_triplets(&t, &M) : RB_ENOMEM;
     rb_triplets_free(&t);

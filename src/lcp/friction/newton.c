@@ -62,7 +62,7 @@ static rb_status start_newton(rb_friction_task *task, int variant, void *state)
 }
 
 /* F at (r, u), and A, B where wanted; returns ||F||^2 */
-static double evaluate(newton *s, const double *r, const double *u, double *F)
+static double evaluate_map(newton *s, const double *r, const double *u, double *F)
 {
     const rb_friction_task *t = s->task;
     const int d = t->d, dd = d * d;
@@ -84,7 +84,7 @@ static rb_status step(newton *s)
     rb_friction_task *t = s->task;
     const double before = rb_friction_task_spent(t);
     /* F and its derivatives A by r and B by u; in the global form also e = K v - H r - f. */
-    const double merit = evaluate(s, t->r, t->u, s->at.F);
+    const double merit = evaluate_map(s, t->r, t->u, s->at.F);
     rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
     rb_status st = RB_SINGULAR;
     for (; st == RB_SINGULAR && s->shift <= LARGEST_SHIFT; s->shift *= 1e3) {
@@ -120,7 +120,7 @@ static rb_status step(newton *s)
                 s->u[i] = t->u[i] + at * s->du[i];
             }
             const double theta =
-                evaluate(s, s->r, s->u, s->at.F) + (1.0 - at) * (1.0 - at) * imbalance;
+                evaluate_map(s, s->r, s->u, s->at.F) + (1.0 - at) * (1.0 - at) * imbalance;
             if (theta < lowest || theta <= (1.0 - 1e-4 * at) * highest)
                 length = at;
             if (theta <= (1.0 - 1e-4 * at) * highest)

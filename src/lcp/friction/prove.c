@@ -103,7 +103,7 @@ static int is_active(const prover *p, int i)
 }
 
 /* Unknowns, their first values, and the linear part.  RB_ENOMEM; RB_EINVAL: too many. */
-static rb_status pose(prover *p)
+static rb_status pose_equations(prover *p)
 {
     const int d = p->d;
     p->n = 0;
@@ -155,7 +155,7 @@ static rb_status pose(prover *p)
 }
 
 /* f of the active equations at x, and the sum of the moduli of its terms. */
-static void residual(const prover *p, const double *x, double *f, double *size)
+static void active_residual(const prover *p, const double *x, double *f, double *size)
 {
     const int n = p->n;
     for (int i = 0; i < n; i++) {
@@ -183,7 +183,7 @@ static void residual(const prover *p, const double *x, double *f, double *size)
 }
 
 /* J (n x n) at x; its entries are rounded where there are slides. */
-static void jacobian(const prover *p, const double *x, double *J)
+static void active_jacobian(const prover *p, const double *x, double *J)
 {
     const size_t n = (size_t)p->n;
     memcpy(J, p->A, n * n * sizeof *J);
@@ -201,13 +201,13 @@ static void jacobian(const prover *p, const double *x, double *J)
 }
 
 /* Newton's steps to rounding; f, size: n each.  0: a singular matrix, or no numbers. */
-static int refine(prover *p, double *J, int *pivot, double *f, double *size)
+static int refine_by_newton(prover *p, double *J, int *pivot, double *f, double *size)
 {
     const int n = p->n;
     double before = INFINITY;
     for (int step = 0; step < STEPS; step++) {
-        residual(p, p->x, f, size);
-        jacobian(p, p->x, J);
+        active_residual(p, p->x, f, size);
+        active_jacobian(p, p->x, J);
         if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, 1, J, n, pivot, f, n) != 0)
             return 0;
         for (int i = 0; i < n; i++)
@@ -292,12 +292,12 @@ static rb_status solve_active_equations(prover *p, rb_friction_proof *proof)
     /* An approximate inverse R with a proved bound of |I - R A|: below one, A is regular. */
     proof_inverse inverse;
     proof->reason = "the matrix of the active equations is not proved to be regular";
-    if (quadratic && !refine(p, J, pivot, f, f + n)) {
+    if (quadratic && !refine_by_newton(p, J, pivot, f, f + n)) {
         free(J);
         return rb_arena_done(&scratch, RB_UNDECIDED);
     }
     if (quadratic)
-        jacobian(p, p->x, J);
+        active_jacobian(p, p->x, J);
     else
         memcpy(J, p->A, n * n * sizeof *J);
     /* the entries with x are rounded, by 4 units at most */
@@ -309,7 +309,7 @@ static rb_status solve_active_equations(prover *p, rb_friction_proof *proof)
     else if (s == RB_OK && !quadratic)
         rb_proof_solve(&inverse, p->b, NULL, 1, p->x, p->rho);
     else if (s == RB_OK) {
-        residual(p, p->x, f, f + n);
+        active_residual(p, p->x, f, f + n);
         for (size_t i = 0; i < n; i++)
             f[i] = fabs(f[i]) + proof_error(n + 8, f[n + i]);
         if (!krawczyk(p, &inverse, f, f + 2 * n)) {
@@ -342,7 +342,7 @@ static void find_idle(prover *p)
 
 /* The inequalities of all zones; where one does not hold the zone becomes another.  RB_UNDECIDED:
  * some were changed. */
-static rb_status judge(prover *p, rb_friction_proof *proof)
+static rb_status judge_signs(prover *p, rb_friction_proof *proof)
 {
     const int d = p->d;
     for (int i = 0; i < p->m; i++) {
@@ -460,7 +460,7 @@ static rb_status attempt_all(prover *p, rb_friction_proof *proof)
         for (int k = 0; k < round; k++)
             if (hash[k] == hash[round])
                 return RB_UNDECIDED;
-        s = pose(p);
+        s = pose_equations(p);
         if (s == RB_EINVAL) {
             proof->reason = "too many unknowns for a dense matrix";
             return RB_UNDECIDED;
@@ -469,7 +469,7 @@ static rb_status attempt_all(prover *p, rb_friction_proof *proof)
             s = solve_active_equations(p, proof);
         if (s != RB_OK)
             return s;
-        s = judge(p, proof);
+        s = judge_signs(p, proof);
         if (s == RB_UNDECIDED && rb_interrupted())
             s = RB_INTERRUPTED;
     }

@@ -291,7 +291,7 @@ static rb_status follow_path(void *state)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
+static rb_status begin_lemke(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     lemke *l = state;
     const int n = task->M.n;
@@ -328,7 +328,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     return s;
 }
 
-static rb_status end(void *state, rb_status s, double *z)
+static rb_status end_lemke(void *state, rb_status s, double *z)
 {
     lemke *l = state;
     const lcp_task *task = l->task;
@@ -348,7 +348,8 @@ static rb_status end(void *state, rb_status s, double *z)
     return s;
 }
 
-const lcp_method rb_lcp_tableau_method = {"lemke", sizeof(lemke), begin, follow_path, end};
+const lcp_method rb_lcp_tableau_method = {"lemke", sizeof(lemke), begin_lemke, follow_path,
+                                          end_lemke};
 
 rb_status rb_lcp_run(const lcp_method *method, const lcp_task *task, void *state, double *z,
                      rb_lcp_info *info)

@@ -328,7 +328,7 @@ static void tell_trace(const mixed *p, int entering, int leaving, int slot, doub
 /* The entering variable moves by sign * step: the basic ones with it, those that tie to
  * their bounds exactly.  It then replaces the variable of the slot, or is at its other
  * bound. */
-static rb_status move(mixed *p, int entering, double sign, double step, int slot, int count)
+static rb_status exchange(mixed *p, int entering, double sign, double step, int slot, int count)
 {
     const range own = range_of(p, entering);
     const double from = sign > 0.0 ? own.low : own.high;
@@ -400,7 +400,7 @@ static rb_status set_out(mixed *p, const double *start)
     const int v = p->b.variable[slot], grows = p->y[slot] > 0.0;
     for (int j = 0; j < p->n; j++)
         p->y[j] = -p->y[j];
-    const rb_status status = move(p, 2 * p->n, 1.0, t, slot, 0);
+    const rb_status status = exchange(p, 2 * p->n, 1.0, t, slot, 0);
     if (v >= p->n) /* it comes from outside its box, unlike in the ratio test */
         p->at_upper[v - p->n] = !grows;
     p->info->iters++;
@@ -436,7 +436,7 @@ static rb_status follow_path(mixed *p)
         if (s != RB_OK)
             return s;
         p->leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
-        s = move(p, entering, sign, step, slot, count);
+        s = exchange(p, entering, sign, step, slot, count);
         p->info->iters++;
         p->work.used += (1000.0 + 12.0 * n) + PER_OPERATION * (p->b.operations - before);
         if (s != RB_OK)
@@ -547,7 +547,7 @@ double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, dou
     return 1e-14 * rb_norm_inf((size_t)M->rows, work);
 }
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
+static rb_status begin_mixed(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     mixed *p = state;
     const rb_lcp_mixed_problem given = {task->M.sparse, task->q, task->lower, task->upper};
@@ -584,7 +584,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
 }
 
 /* RB_INACCURATE: the end of the path does not solve. */
-static rb_status end(void *state, rb_status s, double *z)
+static rb_status end_mixed(void *state, rb_status s, double *z)
 {
     mixed *p = state;
     const lcp_task *task = p->task;
@@ -616,7 +616,8 @@ static rb_status end(void *state, rb_status s, double *z)
     return s;
 }
 
-const lcp_method rb_lcp_sparse_method = {"lemke-sparse", sizeof(mixed), begin, go_on, end};
+const lcp_method rb_lcp_sparse_method = {"lemke-sparse", sizeof(mixed), begin_mixed, go_on,
+                                         end_mixed};
 
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info)

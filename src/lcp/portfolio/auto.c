@@ -81,7 +81,7 @@ typedef struct {
     double *z;     /* n: of the method that has just ended; owned */
 } portfolio;
 
-static void add(portfolio *p, int kind, double share, int systems, const lcp_task *task)
+static void add_member(portfolio *p, int kind, double share, int systems, const lcp_task *task)
 {
     p->member[p->count++] = (member){.method = methods[kind],
                                      .share = share,
@@ -104,12 +104,12 @@ static void choose_order(const lcp_task *task, portfolio *p)
     const int newton_first =
         sure || (sparse && !discretised && s.n >= RB_LCP_NEWTON_HOPE_FROM) || task->opt->start;
     if (newton_first)
-        add(p, NEWTON, 1.0, sure ? SURE_SYSTEMS : HOPE_SYSTEMS, task);
-    add(p, first, 1.0, 0, task);
+        add_member(p, NEWTON, 1.0, sure ? SURE_SYSTEMS : HOPE_SYSTEMS, task);
+    add_member(p, first, 1.0, 0, task);
     if (!newton_first)
-        add(p, NEWTON, s.positive ? 0.5 : 0.1, 0, task);
+        add_member(p, NEWTON, s.positive ? 0.5 : 0.1, 0, task);
     if (first == TABLEAU || s.n <= RB_LCP_TABLEAU_UP_TO)
-        add(p, first == TABLEAU ? SPARSE : TABLEAU, 0.5, 0, task);
+        add_member(p, first == TABLEAU ? SPARSE : TABLEAU, 0.5, 0, task);
 }
 
 static rb_status make_dense(const rb_sparse *M, double **dense)

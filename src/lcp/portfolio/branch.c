@@ -150,7 +150,7 @@ static int worst_pair(const search *s, double *apart)
 
 /* RB_OK, RB_NO_SOLUTION, RB_UNDECIDED; RB_MAXITER: a limit of the search; RB_TIME_LIMIT,
  * RB_INTERRUPTED, RB_ENOMEM. */
-static rb_status run(search *s, const rb_lcp_options *opt, double began, rb_lcp_info *info)
+static rb_status run_branches(search *s, const rb_lcp_options *opt, double began, rb_lcp_info *info)
 {
     const double now = rb_seconds();
     const int most = opt->max_iters ? opt->max_iters : MOST_CHOICES;
@@ -230,7 +230,7 @@ rb_status rb_lcp_branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt
         status = rb_lcp_linear_create(&posed.M, s.q, s.lower, s.upper, &s.linear);
     }
     if (status == RB_OK)
-        status = run(&s, opt, began, &own);
+        status = run_branches(&s, opt, began, &own);
     if (status == RB_OK) {
         memcpy(z, s.best, order * sizeof *z);
         own.solver = "branching";

@@ -62,7 +62,7 @@ static void product(search *s)
 /* ---- The basic solution of a basis --------------------------------------------------- */
 
 /* z to full precision by residuals in twice the precision.  0: they do not get small. */
-static int refine(search *s)
+static int refine_basic_solution(search *s)
 {
     enum { TURNS = 10 };
     const double enough = 1e-14, *q = s->p.q;
@@ -134,7 +134,7 @@ static int basic_solution(search *s)
     LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
     for (int c = 0; c < m; c++)
         s->z[s->inside[c]] = s->x[c] * s->col[c];
-    return rcond > POOR || refine(s);
+    return rcond > POOR || refine_basic_solution(s);
 }
 
 /* bound = |A^-1| (|L| |U| |z| + |M| |z| + |q|), by components, of the basis whose LU is in A:
@@ -308,7 +308,7 @@ static rb_status make_room(search *s, rb_lcp_solutions *all)
 
 /* Adds z, unless it is known already.  nearby: it is a solution within rounding only, as which
  * it gives way to a near one.  RB_ENOMEM. */
-static rb_status keep(search *s, int regular, int nearby, rb_lcp_solutions *all)
+static rb_status keep_basic_solution(search *s, int regular, int nearby, rb_lcp_solutions *all)
 {
     const size_t n = (size_t)s->n;
     int at = 0;
@@ -403,11 +403,11 @@ static rb_status look_at_point(search *s, likelihood is, basis_kind kind, rb_lcp
     if (exact == RB_OK)
         exact = rb_lcp_is_exact(&point, s->at, s->zeros);
     if (exact == RB_OK || exact == RB_ENOMEM)
-        return exact == RB_OK ? keep(s, regular, 0, all) : exact;
+        return exact == RB_OK ? keep_basic_solution(s, regular, 0, all) : exact;
     memset(s->zeros, 0, (size_t)s->n);
     /* of a singular basis another point than this one may be a solution */
     all->undecided += kind != CONTRADICTORY && (exact == RB_UNDECIDED || kind != INVERTED);
-    return is == NEARLY ? keep(s, regular, 1, all) : RB_OK;
+    return is == NEARLY ? keep_basic_solution(s, regular, 1, all) : RB_OK;
 }
 
 /* One basis: its point, or where its matrix is singular what linear programming says of its

@@ -202,7 +202,7 @@ static void exchange(newton *s, int first)
 /* All negative components are exchanged at once, which is a Newton step, as long as their
  * number keeps falling or has not stalled too often; then only the last one, which ends
  * for P-matrices (Murty), until there are fewer of them than ever before. */
-static rb_status iterate(void *state)
+static rb_status exchange_pairs(void *state)
 {
     newton *s = state;
     const rb_lcp_options *opt = s->task->opt;
@@ -269,7 +269,7 @@ static rb_status fail_memory(newton *s)
                    M->p[M->cols]);
 }
 
-static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
+static rb_status begin_newton(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     newton *s = state;
     const rb_sparse *M = task->M.sparse;
@@ -320,7 +320,7 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
 }
 
 /* RB_INACCURATE: the end does not solve. */
-static rb_status end(void *state, rb_status status, double *z)
+static rb_status end_newton(void *state, rb_status status, double *z)
 {
     newton *s = state;
     const lcp_task *task = s->task;
@@ -341,7 +341,8 @@ static rb_status end(void *state, rb_status status, double *z)
     return status;
 }
 
-const lcp_method rb_lcp_newton_method = {"newton", sizeof(newton), begin, iterate, end};
+const lcp_method rb_lcp_newton_method = {"newton", sizeof(newton), begin_newton, exchange_pairs,
+                                         end_newton};
 
 rb_status rb_lcp_newton_in_boxes(const rb_lcp_mixed_problem *p, int hopes,
                                  const rb_lcp_options *opt, double *z, rb_lcp_info *info)

@@ -466,7 +466,7 @@ static void set_base(prover *p)
 
 /* The undecided t >= 0 widen the bounds E of n numbers X_0 + X_beta t: |z - X_0| <= E_0 + (|X_beta|
  * + E_beta) t. */
-static void widen(const prover *p, int n, const double *X, double *E)
+static void widen_bounds(const prover *p, int n, const double *X, double *E)
 {
     for (int i = 0; p->betas && i < n; i++) {
         double sum = 0.0;
@@ -501,8 +501,8 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
         proof->row = p->beta[0];
         return bounded;
     }
-    widen(p, p->m, p->X, p->EX);
-    widen(p, n, p->Y, p->EY);
+    widen_bounds(p, p->m, p->X, p->EX);
+    widen_bounds(p, n, p->Y, p->EY);
     /* The signs.  Where one is wrong the pair is exchanged; where none is, but one is open, the
      * residual is computed again with more digits; then the pair is left undecided. */
     int wrong = 0, open = 0;

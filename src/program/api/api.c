@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* All results; the model stays aside where its bodies remain those of the case. */
-static void forget(rb_api *a, int same_bodies)
+static void forget_solution(rb_api *a, int same_bodies)
 {
     if (!same_bodies || a->result.model.mesh.ends) {
         rb_rolling_model_free(&a->kept);
@@ -72,7 +72,7 @@ void rb_api_free(rb_api *a)
 {
     if (!a)
         return;
-    forget(a, 0);
+    forget_solution(a, 0);
     rb_case_free(a->words);
     free(a);
 }
@@ -104,13 +104,13 @@ int rb_api_set(rb_api *a, const char *name, const char *text)
     int drives = 0;
     for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
         drives |= strcmp(name, driving[k]) == 0;
-    forget(a, drives);
+    forget_solution(a, drives);
     return note_refusal(a, name, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
 int rb_api_read(rb_api *a, const char *path)
 {
-    forget(a, 0);
+    forget_solution(a, 0);
     return note_refusal(a, path, rb_case_read(a->words, path, &a->why));
 }
 
@@ -121,7 +121,7 @@ rb_status rb_api_check_refusals(const rb_api *a, rb_message *why)
 
 int rb_api_resolve(rb_api *a)
 {
-    forget(a, 1);
+    forget_solution(a, 1);
     rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK)
         s = rb_case_resolve(a->words, &a->why);

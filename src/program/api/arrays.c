@@ -126,7 +126,7 @@ static rb_units units_of(const rb_api *a, const char *name)
 }
 
 /* From mm, N, MPa to the units of the case: n numbers of an array from the first on. */
-static void show(const rb_api *a, api_array *made, int first, int n)
+static void convert_array(const rb_api *a, api_array *made, int first, int n)
 {
     rb_unit_factor f;
     const rb_units units = units_of(a, made->name);
@@ -163,7 +163,7 @@ rb_status rb_api_add_column(rb_api *a, const char *name, int rows, const double 
     memcpy(&longer[(size_t)rows * (size_t)to->columns], x, sizeof(double) * (size_t)rows);
     to->columns++;
     if (to->shown) /* somebody has looked at it */
-        show(a, to, rows * (to->columns - 1), rows);
+        convert_array(a, to, rows * (to->columns - 1), rows);
     return RB_OK;
 }
 
@@ -425,7 +425,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         rb_api_call_ends(a, RB_OK);
     }
     if (made && !made->shown)
-        show(a, made, 0, made->rows * made->columns);
+        convert_array(a, made, 0, made->rows * made->columns);
     if (made)
         made->shown = 1;
     *rows = made ? made->rows : 0;

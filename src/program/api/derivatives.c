@@ -40,7 +40,7 @@ static rb_status of_one_step(rb_api *a)
                          "derivatives: of a solved case of one step, without error bars");
 }
 
-static rb_status differentiate(rb_api *a, int smooth)
+static rb_status differentiate_case(rb_api *a, int smooth)
 {
     rb_api_forget_arrays(a, "derivative.");
     rb_case_derivatives_free(&a->derivatives);
@@ -58,13 +58,13 @@ static rb_status differentiate(rb_api *a, int smooth)
 int rb_api_derivatives(rb_api *a)
 {
     rb_api_forget_call(a);
-    return rb_api_ended(a, differentiate(a, 0));
+    return rb_api_ended(a, differentiate_case(a, 0));
 }
 
 int rb_api_smooth_derivatives(rb_api *a)
 {
     rb_api_forget_call(a);
-    return rb_api_ended(a, differentiate(a, 1));
+    return rb_api_ended(a, differentiate_case(a, 1));
 }
 
 /* What the derivatives of steps are computed from. */

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* A copy of the case, which options for the question do not change.  NULL: no memory. */
-static rb_case *begin(rb_api *a, const char *arrays, rb_case_purpose purpose)
+static rb_case *copy_case(rb_api *a, const char *arrays, rb_case_purpose purpose)
 {
     rb_case *c = rb_case_copy(a->words);
 
@@ -23,7 +23,7 @@ static rb_case *begin(rb_api *a, const char *arrays, rb_case_purpose purpose)
 }
 
 /* Refuses what the command line refuses. */
-static rb_status check(const rb_option *o, double value, rb_message *why)
+static rb_status check_range(const rb_option *o, double value, rb_message *why)
 {
     char expected[80];
 
@@ -34,7 +34,7 @@ static rb_status check(const rb_option *o, double value, rb_message *why)
 }
 
 /* An array of the handle; those of one call begin with "fit." or "design.". */
-static rb_status keep(rb_api *a, const char *name, int rows, int columns, const double *x)
+static rb_status keep_numbers(rb_api *a, const char *name, int rows, int columns, const double *x)
 {
     return rb_api_copy_array(a, name, rows, columns, x) ? RB_OK : RB_ENOMEM;
 }
@@ -85,8 +85,8 @@ static rb_status keep_parameters(rb_api *a, const rb_case_fit *fit, rb_units uni
             correlation[i + j * n] = i == j ? 1.0 : solved ? p->correlation[i] : NAN;
     }
     for (int k = 0; k < COLUMNS && s == RB_OK; k++)
-        s = keep(a, names[k], n, 1, x[k]);
-    return s == RB_OK ? keep(a, "fit.correlation", n, n, correlation) : s;
+        s = keep_numbers(a, names[k], n, 1, x[k]);
+    return s == RB_OK ? keep_numbers(a, "fit.correlation", n, n, correlation) : s;
 }
 
 /* The measured curve, the fitted one and its band, n points each; creepages have no unit. */
@@ -99,7 +99,7 @@ static rb_status keep_points(rb_api *a, const rb_case_data *d, const rb_case_fit
                                  : d->measure == RB_CASE_FORCE_RATIO ? "fit.force_ratio"
                                                                      : "fit.force_over_load",
                                  "fit.fitted", "fit.band"};
-    rb_status s = keep(a, d->is_ratio ? "fit.creep_ratio" : "fit.creep", d->n, 1, d->creep);
+    rb_status s = keep_numbers(a, d->is_ratio ? "fit.creep_ratio" : "fit.creep", d->n, 1, d->creep);
 
     for (int k = 0; k < 3 && s == RB_OK; k++) {
         api_array *made = rb_api_copy_array(a, names[k], d->n, 1, columns[k]);
@@ -129,7 +129,7 @@ static rb_status keep_fit(rb_api *a, const rb_case_data *d, const rb_case_fit *f
     if (fit->status != RB_OK)
         return s;
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers && s == RB_OK; k++)
-        s = keep(a, numbers[k].name, 1, 1, &numbers[k].value);
+        s = keep_numbers(a, numbers[k].name, 1, 1, &numbers[k].value);
     if (s == RB_OK)
         s = keep_points(a, d, fit, units);
     return s == RB_OK ? keep_text(&a->said[API_FIT_SENTENCES], fit->sentences) : s;
@@ -140,16 +140,16 @@ static int fit_table(rb_api *a, const char *path, rb_io_table *t, const rb_case_
                      double level)
 {
     static const rb_option of_level = RB_FIT_LEVEL_LINE(0), of_sigma = RB_FIT_SIGMA_LINE(0);
-    rb_case *c = begin(a, "fit.", RB_CASE_CURVE);
+    rb_case *c = copy_case(a, "fit.", RB_CASE_CURVE);
     rb_case_data data = {0};
     rb_case_fit fit = {.level = level};
     const rb_case_fit_observer observer = {see_step, a};
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;
 
     if (s == RB_OK)
-        s = check(&of_level, level, &a->why);
+        s = check_range(&of_level, level, &a->why);
     if (s == RB_OK && !isnan(w->sigma))
-        s = check(&of_sigma, w->sigma, &a->why);
+        s = check_range(&of_sigma, w->sigma, &a->why);
     /* The table and the words are read first: they may change the case, which is resolved
      * afterwards. */
     if (s == RB_OK)
@@ -250,7 +250,7 @@ static rb_status keep_design(rb_api *a, const rb_design *d, rb_units units)
     rb_status s = keep_names(a, d);
 
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers && s == RB_OK; k++)
-        s = keep(a, numbers[k].name, 1, 1, &numbers[k].value);
+        s = keep_numbers(a, numbers[k].name, 1, 1, &numbers[k].value);
     /* Each variable where the search ended and where it began; constraints x 3: at least or at
      * most, bound, value. */
     api_array *value = s == RB_OK ? rb_api_make_array(a, "design.value", d->n, 1) : NULL;
@@ -282,15 +282,15 @@ int rb_api_design(rb_api *a, const char *result, int largest, const char *over, 
                   double span, int evaluations)
 {
     static const rb_option most = RB_DESIGN_EVALUATIONS_LINE(0), width = RB_DESIGN_SPAN_LINE(0);
-    rb_case *c = begin(a, "design.", RB_CASE_DESIGN);
+    rb_case *c = copy_case(a, "design.", RB_CASE_DESIGN);
     rb_design d = {.largest = largest, .most = evaluations};
     const rb_design_observer observer = {see_evaluation, a};
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;
 
     if (s == RB_OK)
-        s = check(&most, evaluations, &a->why);
+        s = check_range(&most, evaluations, &a->why);
     if (s == RB_OK && !isnan(span))
-        s = check(&width, span, &a->why);
+        s = check_range(&width, span, &a->why);
     /* Lengths of the caller are in the units of the case, which are known once it is resolved. */
     if (s == RB_OK)
         s = rb_case_resolve(c, &a->why);

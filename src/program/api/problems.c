@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Every call forgets the arrays, notes and numbers of the call of its kind before it. */
-static void begin(rb_api *a, const char *arrays, const char *solver)
+static void begin_problem(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
     rb_api_forget_notes(a);
@@ -83,8 +83,8 @@ static rb_status prove_friction(rb_api *a, const rb_friction_problem *problem, c
 /* ---- Complementarity --------------------------------------------------------------- */
 
 /* The matrix in compressed columns that the caller owns; RB_EINVAL: it is none. */
-static rb_status borrow(int n, const int *p, const int *i, const double *x, rb_sparse *M,
-                        rb_message *why)
+static rb_status borrow_matrix(int n, const int *p, const int *i, const double *x, rb_sparse *M,
+                               rb_message *why)
 {
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "lcp: n = %d", n);
@@ -122,7 +122,7 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
     while (known < count && strcmp(solver, solvers[known].name) != 0)
         known++;
-    begin(a, "lcp.", known < count ? solvers[known].name : "");
+    begin_problem(a, "lcp.", known < count ? solvers[known].name : "");
     options.max_iters = max_pivots;
     options.seconds = seconds;
     options.start = start;
@@ -131,7 +131,7 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
             a, "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver);
     if (n == 0)
         return nothing_is_unknown(a);
-    rb_status s = borrow(n, p, i, x, &M, &a->why);
+    rb_status s = borrow_matrix(n, p, i, x, &M, &a->why);
     if (s != RB_OK)
         return rb_api_ended(a, s);
     const rb_lcp_mixed_problem problem = {.M = &M, .q = q, .lower = lower, .upper = upper};
@@ -165,7 +165,7 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
     rb_sparse columns = {0};
     const rb_status s = n > 0 ? rb_sparse_from_dense(n, n, M, n, &columns) : RB_OK;
     if (s != RB_OK) {
-        begin(a, "lcp.", "");
+        begin_problem(a, "lcp.", "");
         return rb_api_ended(a, s);
     }
     const int ended = rb_api_lcp_sparse(a, n, columns.p, columns.i, columns.x, q, NULL, NULL, NULL,
@@ -208,7 +208,7 @@ int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const dou
 {
     const rb_lcp_problem p = {n, M, n, q};
     rb_lcp_solutions all = {0};
-    begin(a, "lcp.", "enumeration");
+    begin_problem(a, "lcp.", "enumeration");
     rb_api_call_begins(a);
     rb_status s = rb_lcp_enumerate(&p, lower, upper, seconds, &all, &a->why);
     if (s == RB_OK && a->proves) {
@@ -245,7 +245,7 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
     rb_lcp_options options = rb_lcp_defaults();
     rb_lcp_info info = {0};
     rb_lcp_solutions all = {0};
-    begin(a, "game.", all_of_it ? "enumeration" : "lemke-howson");
+    begin_problem(a, "game.", all_of_it ? "enumeration" : "lemke-howson");
     options.max_iters = max_pivots;
     options.seconds = seconds;
     if (m < 1 || n < 1 || m > INT_MAX - n)
@@ -331,7 +331,7 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
                           const int *i, const double *x, const double *q, const double *mu,
                           const char *solver, double tol, int max_iters)
 {
-    begin(a, "friction.", solver);
+    begin_problem(a, "friction.", solver);
     if (contacts == 0 && (dimension == 2 || dimension == 3))
         return nothing_is_unknown(a);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
@@ -348,7 +348,7 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
     rb_status s = (p || problem.W) && problem.q && problem.mu ? RB_OK : RB_ENOMEM;
     /* The rows and columns of a matrix of the caller are checked before they are followed. */
     if (s == RB_OK && p)
-        s = borrow((int)m, p, i, x, &borrowed, &a->why);
+        s = borrow_matrix((int)m, p, i, x, &borrowed, &a->why);
     if (s == RB_OK && p)
         s = rb_sparse_copy(&borrowed, &problem.Ws);
     if (s == RB_OK) {
@@ -383,7 +383,7 @@ int rb_api_friction_sparse(rb_api *a, int dimension, int contacts, const int *p,
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol, int max_iters)
 {
     rb_friction_problem p = {0};
-    begin(a, "friction.", solver);
+    begin_problem(a, "friction.", solver);
     rb_status s = rb_friction_read(path, &p, &a->why);
     const int is_empty = s == RB_OK && p.contacts == 0;
     if (s == RB_OK && !is_empty)
@@ -505,9 +505,9 @@ static rb_status choose_slopes(rb_api *a, int n, rb_api *const *cases, const cha
 }
 
 /* names NULL: without cracks; derivatives, tolerance NULL: without them. */
-static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
-                 const char *const *values, const char *derivatives, const char *tolerance,
-                 int workers)
+static int run_sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                     const char *const *values, const char *derivatives, const char *tolerance,
+                     int workers)
 {
     rb_case_slopes *own = &a->slopes[API_SLOPES_SWEEP];
     study st = {.a = a, .cases = cases, .slopes = own};
@@ -520,7 +520,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                                  .program = program_of_case,
                                  .context = &st};
     rb_status s = RB_OK;
-    begin(a, "sweep.", NULL);
+    begin_problem(a, "sweep.", NULL);
     rb_api_forget_slopes(a, API_SLOPES_SWEEP);
     if (names && n > 0) {
         st.crack = calloc((size_t)n, sizeof *st.crack);
@@ -589,11 +589,11 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
                  const char *tolerance, int workers)
 {
-    return sweep(a, n, cases, 0, NULL, NULL, derivatives, tolerance, workers);
+    return run_sweep(a, n, cases, 0, NULL, NULL, derivatives, tolerance, workers);
 }
 
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
                         const char *const *values, int workers)
 {
-    return sweep(a, n, cases, m, names, values, NULL, NULL, workers);
+    return run_sweep(a, n, cases, m, names, values, NULL, NULL, workers);
 }

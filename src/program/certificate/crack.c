@@ -305,7 +305,7 @@ static void follow_fluid(restored *j, int k, double before)
 }
 
 /* What step k is written with: its place, stress intensities, lengths. */
-static void record(restored *j, int k)
+static void record_position(restored *j, int k)
 {
     rb_crack_history *again = &j->r->history;
     const int n = again->nodes;
@@ -331,7 +331,7 @@ static void record(restored *j, int k)
 
 /* Step by step, each from the one before; where the mouth closes between two of them and trapped
  * fluid counts from there, from the state just before. */
-static rb_status follow(restored *j, rb_message *why)
+static rb_status follow_crack(restored *j, rb_message *why)
 {
     rb_crack_history *again = &j->r->history;
     const rb_crack_history *h = &j->stored;
@@ -362,7 +362,7 @@ static rb_status follow(restored *j, rb_message *why)
         for (size_t i = 0; i < n && s == RB_OK; i++)
             off = fmax(off, judge_node(j, k, (int)i, before.D + n));
         if (s == RB_OK) {
-            record(j, k);
+            record_position(j, k);
             follow_fluid(j, k, before.volume);
             again->residual[k] = off;
         }
@@ -414,7 +414,7 @@ rb_status rb_certificate_restore_crack(rb_certificate *c, const json_t *root, rb
     if (s == RB_OK)
         s = rebuild(&j, why);
     if (s == RB_OK)
-        s = follow(&j, why);
+        s = follow_crack(&j, why);
     if (s == RB_OK) {
         /* Residuals that are small enough are believed: they are those of scaled problems. */
         const double printed = rb_certificate_member(json_object_get(root, "summary"), "residual");

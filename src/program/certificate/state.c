@@ -96,7 +96,7 @@ static void kinematics_at(const rb_rolling_model *m, double delta, double xi, do
 }
 
 /* The factor of a for which r - factor a is least, in the sense of least squares. */
-static double fit(size_t n, const double *a, const double *r)
+static double best_factor(size_t n, const double *a, const double *r)
 {
     double aa = 0.0, ar = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -129,13 +129,13 @@ static rb_status fit_motion(rb_certificate *c, const json_t *table, rb_rolling_m
         kinematics_at(m, 1.0, 0.0, unit);
         for (size_t i = 0; i < n; i++)
             unit[i] -= w[i];
-        x->delta = fit(n, unit, printed);
+        x->delta = best_factor(n, unit, printed);
     }
     if (p->force_given || !isnan(m->rc->creep_ratio)) {
         kinematics_at(m, 0.0, 1.0, unit);
         for (size_t i = n; i < 2 * n; i++)
             unit[i] -= w[i];
-        x->xi = fit(n, unit + n, printed + n);
+        x->xi = best_factor(n, unit + n, printed + n);
     }
     free(w);
     return s;
@@ -268,9 +268,9 @@ static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h
 }
 
 /* Follows the steps by their states and leaves the model at the last one. */
-static rb_status follow(rb_certificate *c, const rb_resolved_case *resolved,
-                        const rb_certificate_contact *stored, int n, rb_case_result *r,
-                        rb_rolling_states *to, rb_message *why)
+static rb_status follow_steps(rb_certificate *c, const rb_resolved_case *resolved,
+                              const rb_certificate_contact *stored, int n, rb_case_result *r,
+                              rb_rolling_states *to, rb_message *why)
 {
     const json_t *history = stored->history, *states = json_object_get(history, "states");
     const int steps = (int)json_array_size(json_object_get(history, "approach"));
@@ -386,7 +386,7 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
         return rb_certificate_refuse(c, "its table has no elements", why);
     c->refined = resolved->accuracy > 0.0;
     c->proves = c->judges && (c->found->prove || json_object_get(stored->summary, "proof"));
-    rb_status s = stored->history ? follow(c, resolved, stored, n, r, states, why)
+    rb_status s = stored->history ? follow_steps(c, resolved, stored, n, r, states, why)
                                   : restore_step(c, resolved, stored, n, r, why);
     if (s == RB_OK)
         s = rb_rolling_model_solution(&r->model, &r->solution, why);

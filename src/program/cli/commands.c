@@ -130,7 +130,7 @@ const char *cli_command_line(void)
     return command_line ? command_line : "rollbem";
 }
 
-static const cli_command *find(const char *name)
+static const cli_command *find_command(const char *name)
 {
     const cli_command *c = commands;
     while (c->name[0] && strcmp(c->name, name) != 0)
@@ -145,7 +145,7 @@ const char *cli_command_name(int k)
 
 const char *cli_command_help(const char *name)
 {
-    const cli_command *c = find(name);
+    const cli_command *c = find_command(name);
     return c ? c->help : NULL;
 }
 
@@ -158,7 +158,7 @@ void cli_guess_command(rb_guess *guess)
 int cli_run(const char *name, int argc, char **argv)
 {
     rb_guess guess = {.word = name};
-    const cli_command *c = find(name);
+    const cli_command *c = find_command(name);
     if (c)
         return c->run(argc, argv);
     cli_guess_command(&guess);

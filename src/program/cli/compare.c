@@ -225,7 +225,8 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_profiles(FILE *out, rb_report_canvas canvas, const void *context,
+                               rb_message *why)
 {
     const comparison *c = context;
     const rb_report_profiles profiles = {.problems = c->problems,
@@ -274,7 +275,7 @@ static cli_exit compare_files(comparison *c, int n, char **files)
     if (code == CLI_OK && c->o->profiles)
         code = cli_write_file(c->o->profiles, print_profiles, c);
     if (code == CLI_OK)
-        code = cli_draw_file(&c->o->pictures, "plot", c->o->plot, draw, c);
+        code = cli_draw_file(&c->o->pictures, "plot", c->o->plot, draw_profiles, c);
     return code > worst ? code : worst;
 }
 

@@ -71,7 +71,7 @@ static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER
 /* x + 0.0: no -0; NAN where the case was not run. */
 #define NUMBER(name, x) CLI_NUMBER(name, name, (x) + known)
 
-static rb_status print(FILE *out, const void *context, rb_message *why)
+static rb_status print_cases(FILE *out, const void *context, rb_message *why)
 {
     const contact_runs *all = context;
     const int tractions = all->o->tractions;
@@ -214,7 +214,7 @@ int cli_contact(int argc, char **argv)
                 worst = CLI_DATA > worst ? CLI_DATA : worst;
         /* a table of cases none of which was run says nothing; JSON has the reasons */
         code = ran > 0 || o.style.format == RB_REPORT_JSON
-                   ? cli_write_file(all.o->output, print, &all)
+                   ? cli_write_file(all.o->output, print_cases, &all)
                    : CLI_OK;
         if (code != CLI_OK)
             worst = code;

@@ -43,7 +43,7 @@ static const char notes[] =
     CLI_CASE_NOTES "Example: rollbem crack --similar --support halfplane --half-width 1 --mu 0 \\\n"
                    "           --crack-angle 30 --plot crack.png\n";
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_crack(cli_case_run *run)
 {
     const crack_run *own = run->own;
     const rb_case_crack *crack = rb_case_crack_of(run->words);
@@ -96,7 +96,8 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
                                  cli_command_line(), &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_crack(FILE *out, rb_report_canvas canvas, const void *context,
+                            rb_message *why)
 {
     const crack_run *own = ((const cli_case_run *)context)->own;
     return rb_report_crack_picture(out, canvas, &own->result, why);
@@ -115,17 +116,17 @@ static rb_status draw_open(FILE *out, rb_report_canvas canvas, const void *conte
     return rb_report_crack_open(out, canvas, &own->result, own->at, why);
 }
 
-static const cli_case_file files[] = {{"plot", .draw = draw},
+static const cli_case_file files[] = {{"plot", .draw = draw_crack},
                                       {"plot-crack", .draw = draw_open},
                                       {"orbit", .draw = draw_orbit},
                                       {NULL, NULL, NULL}};
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_crack(FILE *out, const cli_case_run *run)
 {
     rb_report_crack_summary(out, &((const crack_run *)run->own)->result, cli_is_coloured(stderr));
 }
 
-static void ask(const cli_case_run *run, json_t **members)
+static void ask_crack(const cli_case_run *run, json_t **members)
 {
     rb_report_json_set(members, "crack", json_true());
     rb_report_json_set(members, "faces", json_boolean(((const crack_run *)run->own)->states));
@@ -143,12 +144,12 @@ static const cli_case_command command = {
     .takes_crack = 1,
     .files = files,
     .needs = needs,
-    .check = check,
+    .check = check_crack,
     .solve = solve_crack_case,
     .table = write_table,
     .document = fill_in,
-    .asked = ask,
-    .summarise = summarise,
+    .asked = ask_crack,
+    .summarise = summarise_crack,
 };
 
 cli_exit cli_crack_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)

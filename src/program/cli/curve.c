@@ -225,7 +225,8 @@ static rb_status write_table(FILE *out, const cli_case_run *run)
                                  cli_command_line(), &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_curve(FILE *out, rb_report_canvas canvas, const void *context,
+                            rb_message *why)
 {
     const cli_case_run *run = context;
     const curve *r = run->own;
@@ -234,9 +235,9 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, r
                                    (rb_rolling_variable)r->range.over, why);
 }
 
-static const cli_case_file files[] = {{"plot", .draw = draw}, {NULL, NULL, NULL}};
+static const cli_case_file files[] = {{"plot", .draw = draw_curve}, {NULL, NULL, NULL}};
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_curve(FILE *out, const cli_case_run *run)
 {
     rb_report_curve_summary(out, &((const curve *)run->own)->curves);
 }
@@ -250,7 +251,7 @@ static cli_exit choose_purpose(cli_case_run *run)
     return CLI_CONTINUE;
 }
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_curve(cli_case_run *run)
 {
     range_options *r = &((curve *)run->own)->range;
     cli_exit code = read_end(run, FROM, &r->from);
@@ -295,12 +296,12 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .files = files,
     .prepare = choose_purpose,
-    .check = check,
+    .check = check_curve,
     .solve = solve_all_curves,
     .table = write_table,
     .inputs = add_inputs,
     .json = add_json,
-    .summarise = summarise,
+    .summarise = summarise_curve,
 };
 
 int cli_curve(int argc, char **argv)

@@ -74,7 +74,7 @@ static const char *unit_of(const rb_design *d, rb_units units)
     return strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 ? rb_unit_name(units, unit) : "";
 }
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_design(FILE *out, const cli_case_run *run)
 {
     const rb_design *d = &((const designing *)run->own)->design;
     const rb_units units = run->c->units;
@@ -117,7 +117,7 @@ static rb_status solve_design(cli_case_run *run, rb_message *why)
     return s;
 }
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_design(cli_case_run *run)
 {
     designing *f = run->own;
     rb_design *d = &f->design;
@@ -144,11 +144,11 @@ static const cli_case_command command = {
     .purpose = RB_CASE_DESIGN,
     .options = options,
     .option_n = OPTIONS,
-    .check = check,
+    .check = check_design,
     .solve = solve_design,
     .table = write_table,
     .json = add_json,
-    .summarise = summarise,
+    .summarise = summarise_design,
 };
 
 int cli_design(int argc, char **argv)

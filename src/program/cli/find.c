@@ -54,7 +54,7 @@ static int matches(const char *name, const char *text)
     return in_name == search.in_name;
 }
 
-static void print(const char *name, const char *text)
+static void print_entry(const char *name, const char *text)
 {
     if (search.title)
         printf("%s%s\n", search.found ? "\n" : "", search.title);
@@ -66,7 +66,7 @@ static void print(const char *name, const char *text)
 static void show_if(const char *name, const char *text)
 {
     if (matches(name, text))
-        print(name, text);
+        print_entry(name, text);
 }
 
 /* ---- Words ------------------------------------------------------------------------- */
@@ -139,7 +139,7 @@ void cli_find_options(const cli_spec *spec)
                 continue;
             if (*command)
                 rb_append(text, sizeof text, " [rollbem %s]", command);
-            print(name, text);
+            print_entry(name, text);
         }
     }
 }
@@ -213,7 +213,7 @@ static void find_everything(const rb_option_set *options)
                         rb_append(of, sizeof of, "%s--%s", *of ? ", " : "a unit of ", o->name);
                 }
                 if (*of)
-                    print(search.word[0], of);
+                    print_entry(search.word[0], of);
             }
             const rb_rolling_result_table *t;
             for (int j = 0; part == RESULTS && (t = rb_case_result_table(j)); j++)

@@ -95,15 +95,15 @@ static void add_json(const cli_case_run *run, json_t **root)
     rb_report_json_fit(root, &fit);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_fit(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const rb_report_fit fit = shown(context);
     return rb_report_fit_picture(out, canvas, &fit, why);
 }
 
-static const cli_case_file files[] = {{"plot", .draw = draw}, {NULL, NULL, NULL}};
+static const cli_case_file files[] = {{"plot", .draw = draw_fit}, {NULL, NULL, NULL}};
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_fit(FILE *out, const cli_case_run *run)
 {
     const rb_report_fit fit = shown(run);
     rb_report_fit_summary(out, &fit);
@@ -229,7 +229,7 @@ static rb_status solve_fit(cli_case_run *run, rb_message *why)
     return s;
 }
 
-static cli_exit prepare(cli_case_run *run)
+static cli_exit prepare_fit(cli_case_run *run)
 {
     fitting *f = run->own;
     rb_message why = {.text = ""};
@@ -253,12 +253,12 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .operands = 1,
     .files = files,
-    .prepare = prepare,
+    .prepare = prepare_fit,
     .check = resume,
     .solve = solve_fit,
     .table = write_table,
     .json = add_json,
-    .summarise = summarise,
+    .summarise = summarise_fit,
 };
 
 int cli_fit(int argc, char **argv)

@@ -150,7 +150,7 @@ static cli_exit unreadable(friction_result *r, rb_status s, rb_message *why)
 /* Beyond this many rows only --facts looks at W's shape: it costs a factorisation. */
 #define MOST_ROWS 3000
 
-static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
+static cli_exit assess_result(friction_run *run, friction_result *r, rb_status s)
 {
     r->status = rb_friction_status_text(s, run->o->tol, &r->info);
     if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
@@ -370,7 +370,7 @@ static cli_exit solve_one(friction_run *run, const rb_friction_problem *p, frict
     const rb_status s = rb_friction_solve(run->o->solver, p, &opt, &solution, &r->info);
     if (!run->o->trace)
         cli_wait_end();
-    cli_exit code = assess(run, r, s);
+    cli_exit code = assess_result(run, r, s);
     if (code == CLI_UNSOLVED)
         code = look_for_reason(p, r);
     if (run->o->prove && r->m > 0)
@@ -446,7 +446,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
             r->r[at] /= d.tau[c];
             r->u[at] *= d.tau[c];
         }
-        code = assess(run, r, s);
+        code = assess_result(run, r, s);
     }
     rb_friction_soclcp_data_free(&d);
     return code;

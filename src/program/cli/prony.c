@@ -132,7 +132,7 @@ static void find_notes(prony *p)
         add_note(p, "the data show no relaxation: the material is elastic");
 }
 
-static void summarise(FILE *out, const void *context)
+static void summarise_prony(FILE *out, const void *context)
 {
     const prony *p = context;
     const rb_prony_series *s = &p->series;
@@ -228,7 +228,8 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     return rows.is_json ? rb_report_json_write(out, json_of(p, rows.list)) : rb_report_flush(out);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_prony(FILE *out, rb_report_canvas canvas, const void *context,
+                            rb_message *why)
 {
     const prony *p = context;
     const rb_report_prony drawn = {&p->data, &p->series, (rb_units)p->units};
@@ -237,7 +238,7 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, r
 
 /* ---- Command --------------------------------------------------------------------------- */
 
-static cli_exit fit(prony *p, const char *path)
+static cli_exit fit_file(prony *p, const char *path)
 {
     rb_message why = {.text = ""};
     cli_exit code =
@@ -253,12 +254,12 @@ static cli_exit fit(prony *p, const char *path)
     const int first = !p->output.output && cli_reader_is_person();
     cli_page_begin();
     if (first && !p->output.quiet)
-        cli_print_lines(summarise, p);
+        cli_print_lines(summarise_prony, p);
     code = cli_write_file(p->output.output, write_results, p);
     if (code == CLI_OK)
-        code = cli_draw_file(&p->output.pictures, "plot", p->output.plot, draw, p);
+        code = cli_draw_file(&p->output.pictures, "plot", p->output.plot, draw_prony, p);
     if (code == CLI_OK && !first && !p->output.quiet)
-        cli_print_lines(summarise, p);
+        cli_print_lines(summarise_prony, p);
     cli_page_end();
     return code;
 }
@@ -278,7 +279,7 @@ int cli_prony(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE)
-        code = fit(&p, args.operand[0]);
+        code = fit_file(&p, args.operand[0]);
     rb_io_table_free(&p.table);
     cli_args_free(&args);
     return code;

@@ -92,7 +92,7 @@ static void write_lines(const rubber *r, rb_message line[LINES])
               "at rest, with nu near 0.5: rolling needs the modulus of its frequency, V/a");
 }
 
-static void summarise(FILE *out, const void *context)
+static void summarise_rubber(FILE *out, const void *context)
 {
     rb_message line[LINES];
     write_lines(context, line);
@@ -155,11 +155,11 @@ static cli_exit read_hardness(rubber *r)
     return CLI_CONTINUE;
 }
 
-static cli_exit show(const rubber *r)
+static cli_exit show_rubber(const rubber *r)
 {
     const cli_exit code = cli_write_file(r->output.output, write_results, r);
     if (code == CLI_OK && !r->output.quiet)
-        cli_print_lines(summarise, r);
+        cli_print_lines(summarise_rubber, r);
     return code;
 }
 
@@ -180,7 +180,7 @@ int cli_rubber(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE)
-        code = show(&r);
+        code = show_rubber(&r);
     cli_args_free(&args);
     return code;
 }

@@ -150,7 +150,8 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
     return rb_report_history(out, &it->r.history, run->notes, cli_command_line(), &run->o.style);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_solve(FILE *out, rb_report_canvas canvas, const void *context,
+                            rb_message *why)
 {
     const cli_case_run *run = context;
     canvas.dimensionless = run->o.style.dimensionless;
@@ -175,7 +176,7 @@ static rb_status draw_fretting(FILE *out, rb_report_canvas canvas, const void *c
 }
 
 static const cli_case_file files[] = {{"history-table", .write = write_history},
-                                      {"plot", .draw = draw},
+                                      {"plot", .draw = draw_solve},
                                       {"history-plot", .draw = draw_history},
                                       {"fretting-plot", .draw = draw_fretting},
                                       {NULL, NULL, NULL}};
@@ -197,7 +198,7 @@ static cli_exit show_behind(const cli_case_run *run)
     return code == CLI_CONTINUE ? CLI_OK : code;
 }
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_solve(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
     if (it->tolerance && it->r.history.n == 0)
@@ -295,7 +296,7 @@ static cli_exit choose_pivots(rb_case *c)
     return cli_say(s, &why);
 }
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_solve(cli_case_run *run)
 {
     solved *it = run->own;
     const rb_resolved_case *c = run->c;
@@ -379,7 +380,7 @@ static cli_exit check(cli_case_run *run)
     return CLI_CONTINUE;
 }
 
-static void ask(const cli_case_run *run, json_t **members)
+static void ask_solve(const cli_case_run *run, json_t **members)
 {
     static const char *const slopes[] = {"derivatives_of", "own_of_b", "uncertain_inputs"};
     const solved *it = run->own;
@@ -421,13 +422,13 @@ static const cli_case_command command = {
     .files = files,
     .needs = needs,
     .has_scales = 1,
-    .check = check,
+    .check = check_solve,
     .solve = solve_case,
     .before_table = show_behind,
     .table = write_table,
     .document = fill_in,
-    .asked = ask,
-    .summarise = summarise,
+    .asked = ask_solve,
+    .summarise = summarise_solve,
 };
 
 cli_exit cli_solve_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)

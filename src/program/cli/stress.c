@@ -114,7 +114,7 @@ static int read_grid(stress *st)
 }
 
 /* Given tractions act on a half-plane, and nothing is solved: what else a case has says nothing. */
-static cli_exit prepare(cli_case_run *run)
+static cli_exit prepare_stress(cli_case_run *run)
 {
     const stress *st = run->own;
     if (!st->tractions)
@@ -138,7 +138,7 @@ static cli_exit prepare(cli_case_run *run)
                          &why);
 }
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_stress(cli_case_run *run)
 {
     stress *st = run->own;
     rb_report_vtk_kind kind;
@@ -459,7 +459,8 @@ static rb_status write_vtk(FILE *out, const void *context, rb_message *why)
     return s == RB_OK ? rb_report_vtk(out, kind, &st->table) : s;
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_stress(FILE *out, rb_report_canvas canvas, const void *context,
+                             rb_message *why)
 {
     const cli_case_run *run = context;
     const stress *st = run->own;
@@ -484,12 +485,12 @@ static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *contex
 }
 
 static const cli_case_file files[] = {{"vtk", .write = write_vtk},
-                                      {"plot", .draw = draw},
+                                      {"plot", .draw = draw_stress},
                                       {"fringes", .draw = draw_fringes},
                                       {"shakedown-map", .draw = draw_map},
                                       {NULL, NULL, NULL}};
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_stress(FILE *out, const cli_case_run *run)
 {
     if (run->solution)
         rb_report_summary(out, run->solution, cli_terminal_width(STDERR_FILENO));
@@ -503,7 +504,7 @@ static void summarise(FILE *out, const cli_case_run *run)
     }
 }
 
-static void ask(const cli_case_run *run, json_t **members)
+static void ask_stress(const cli_case_run *run, json_t **members)
 {
     stress *st = run->own;
     json_t *grid = json_false(), *shakedown = json_false();
@@ -539,13 +540,13 @@ static const cli_case_command command = {
     .files = files,
     .needs = needs,
     .has_scales = 1,
-    .prepare = prepare,
-    .check = check,
+    .prepare = prepare_stress,
+    .check = check_stress,
     .solve = solve_stress,
     .table = write_table,
     .document = fill_in,
-    .asked = ask,
-    .summarise = summarise,
+    .asked = ask_stress,
+    .summarise = summarise_stress,
 };
 
 cli_exit cli_stress_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)

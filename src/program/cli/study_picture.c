@@ -151,7 +151,7 @@ static rb_report_study picture_of(const study *st, rb_arena *memory, char name[S
                                                                             : 1e-14};
 }
 
-static rb_status check(const study *st, int map, rb_message *why)
+static rb_status check_picture(const study *st, int map, rb_message *why)
 {
     char name[STUDY_HEADING];
     rb_arena memory = {0};
@@ -166,11 +166,11 @@ static rb_status check(const study *st, int map, rb_message *why)
 static cli_exit check_curves(study *st)
 {
     rb_message why = {.text = ""};
-    rb_status s = check(st, 0, &why);
+    rb_status s = check_picture(st, 0, &why);
     if (s == RB_EINVAL && st->o->cases && !st->o->map) {
         st->points = 1;
         st->family = st->o->family ? st->family : -1;
-        s = check(st, 0, &why);
+        s = check_picture(st, 0, &why);
     }
     return s == RB_OK ? CLI_CONTINUE : cli_say_of("plot", s, &why);
 }
@@ -197,7 +197,7 @@ cli_exit cli_study_prepare_pictures(study *st)
         code = choose_axis(st, "family", o->family, st->over, &st->family);
     if (code == CLI_CONTINUE && o->map) {
         rb_message why = {.text = ""};
-        const rb_status s = check(st, 1, &why);
+        const rb_status s = check_picture(st, 1, &why);
         code = s == RB_OK ? code : cli_say_of("map", s, &why);
     }
     if (code == CLI_CONTINUE && o->plot)
@@ -221,7 +221,8 @@ cli_exit cli_study_prepare_pictures(study *st)
                                                         : CLI_CONTINUE;
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const study *st, int map, rb_message *why)
+static rb_status draw_study(FILE *out, rb_report_canvas canvas, const study *st, int map,
+                            rb_message *why)
 {
     char name[STUDY_HEADING];
     rb_arena memory = {0};
@@ -233,12 +234,12 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const study *st, int m
 
 static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *st, rb_message *why)
 {
-    return draw(out, canvas, st, 0, why);
+    return draw_study(out, canvas, st, 0, why);
 }
 
 static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *st, rb_message *why)
 {
-    return draw(out, canvas, st, 1, why);
+    return draw_study(out, canvas, st, 1, why);
 }
 
 /* Cases that were not solved leave holes. */

@@ -259,7 +259,7 @@ static void print_summary(FILE *out, const void *context)
     }
 }
 
-static cli_exit run(study *st)
+static cli_exit run_study(study *st)
 {
     rb_message why = {.text = ""};
     const rb_rolling_sweep sweep = sweep_of(st);
@@ -300,8 +300,8 @@ static cli_exit run(study *st)
 }
 
 /* All that can be refused, and the output file. */
-static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args,
-                        study *st)
+static cli_exit prepare_study(const cli_spec *spec, int argc, char **argv, rb_case *c,
+                              cli_args *args, study *st)
 {
     cli_exit code = cli_case_read(spec, argc, argv, c, args);
 
@@ -363,7 +363,7 @@ int cli_sweep(int argc, char **argv)
         rb_case_free(c);
         return code;
     }
-    code = prepare(&spec, argc, argv, c, &args, &st);
+    code = prepare_study(&spec, argc, argv, c, &args, &st);
     code = cli_pool_agree(code, code == CLI_CONTINUE ? st.fingerprint : 0);
     if (cli_pool_is_worker()) {
         const rb_rolling_sweep sweep = sweep_of(&st);
@@ -373,7 +373,7 @@ int cli_sweep(int argc, char **argv)
         code = CLI_OK; /* rank 0 has the exit code */
     } else {
         if (code == CLI_CONTINUE)
-            code = run(&st);
+            code = run_study(&st);
         if (st.out)
             code = cli_study_close(&st, code);
         if (st.complete)

@@ -29,7 +29,7 @@ static time_t seconds_of(clockid_t clock)
 }
 
 /* Behind the text, which ends with a zero and has room for 240 characters. */
-static void add(char *text, const char *more)
+static void append(char *text, const char *more)
 {
     size_t at = strlen(text);
     while (*more && at < 239)
@@ -42,7 +42,7 @@ static void add_number(char *text, long number)
     const char digit[2] = {(char)('0' + number % 10), '\0'};
     if (number >= 10)
         add_number(text, number / 10);
-    add(text, digit);
+    append(text, digit);
 }
 
 static void tick(int signal_number)
@@ -60,12 +60,12 @@ static void tick(int signal_number)
         return;
     while (line.next <= seconds)
         line.next *= 2;
-    add(text, line.terminal ? "\r\033[K" : "rollbem: ");
+    append(text, line.terminal ? "\r\033[K" : "rollbem: ");
     add_number(text, seconds);
-    add(text, line.terminal ? " s" : " s of the processor so far");
-    add(text, phase ? ": " : "");
-    add(text, phase ? phase : "");
-    add(text, line.terminal ? "\r" : "\n"); /* who writes next writes over it */
+    append(text, line.terminal ? " s" : " s of the processor so far");
+    append(text, phase ? ": " : "");
+    append(text, phase ? phase : "");
+    append(text, line.terminal ? "\r" : "\n"); /* who writes next writes over it */
     line.shown = write(STDERR_FILENO, text, strlen(text)) > 0;
     errno = kept;
 }

@@ -142,23 +142,23 @@ static rb_status write_profile(FILE *out, const void *context, rb_message *why)
     return rb_report_flush(out);
 }
 
-static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_wear(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const wear *w = ((const cli_case_run *)context)->own;
     return rb_report_wear_picture(out, canvas, &w->report, why);
 }
 
 static const cli_case_file files[] = {
-    {"profile", .write = write_profile}, {"plot", .draw = draw}, {NULL, NULL, NULL}};
+    {"profile", .write = write_profile}, {"plot", .draw = draw_wear}, {NULL, NULL, NULL}};
 
-static void summarise(FILE *out, const cli_case_run *run)
+static void summarise_wear(FILE *out, const cli_case_run *run)
 {
     rb_report_wear_summary(out, &((const wear *)run->own)->report);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit check(cli_case_run *run)
+static cli_exit check_wear(cli_case_run *run)
 {
     const wear *w = run->own;
     if (isnan(w->coefficient))
@@ -186,12 +186,12 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .files = files,
     .needs = needs,
-    .check = check,
+    .check = check_wear,
     .solve = solve_wear,
     .table = write_table,
     .inputs = add_inputs,
     .json = add_json,
-    .summarise = summarise,
+    .summarise = summarise_wear,
 };
 
 int cli_wear(int argc, char **argv)

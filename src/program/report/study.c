@@ -15,7 +15,7 @@ typedef struct {
 } spot;
 
 /* Cases of one y, a curve or a row of the map, stand together, x ascending. */
-static int compare(const void *a, const void *b)
+static int compare_rows(const void *a, const void *b)
 {
     const spot *p = a, *q = b;
     if (p->y != q->y)
@@ -33,7 +33,7 @@ static spot *sort_cases(const rb_report_study *s)
                        s->shown.value ? s->shown.value[k] : NAN,
                        s->half_width ? s->half_width[k] : 0.0, k};
     if (at)
-        qsort(at, (size_t)s->n, sizeof *at, compare);
+        qsort(at, (size_t)s->n, sizeof *at, compare_rows);
     return at;
 }
 

@@ -99,7 +99,7 @@ static int next_row(const grid *g, int i, const choice *c)
 }
 
 /* Widths for the rows that are shown, and columns that say the same everywhere. */
-static void measure(const grid *g, const choice *rows, column *all)
+static void measure_columns(const grid *g, const choice *rows, column *all)
 {
     char text[WIDTH];
     for (int j = 0; j < g->columns; j++) {
@@ -222,7 +222,7 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
                             ? (choice){(n - 1 + most - 2) / (most - 1), 1, 0}
                             : (choice){1, most / 2 + 1, n - (most - most / 2 - 1)};
     int width = 0, wanted = 0, used = 0, units = 0;
-    measure(&g, &rows, all);
+    measure_columns(&g, &rows, all);
     for (int j = 0; j < g.columns; j++) {
         width += GAP + all[j].width;
         wanted += all[j].is_constant ? 0 : GAP + all[j].width;

@@ -66,9 +66,9 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_
 typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,
                         rb_bem_flexibility *f, rb_message *why);
 
-static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_body *body,
-                      const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
-                      rb_message *why)
+static rb_status make_halfplane(maker *how, const rb_rolling_case *rc, const rb_rolling_body *body,
+                                const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
+                                rb_message *why)
 {
     double length[RB_ROLLING_TERMS];
     const double start = rb_seconds();
@@ -96,7 +96,7 @@ static rb_status halfplane_flexibility(const rb_rolling_case *rc, const rb_rolli
                                        rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
-    return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
+    return make_halfplane(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
 }
 
 /* Equal elements beside a wheel A are equal arcs of the wheel. */
@@ -106,8 +106,9 @@ static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rollin
 {
     (void)plan; /* nothing lies outside the contact */
     const int are_equal = rc->a.support == RB_BEM_HALFPLANE && !rb_rolling_mesh_is_graded(rc);
-    return make(are_equal ? rb_bem_flexibility_toeplitz : rb_bem_flexibility_surface_products, rc,
-                body, mesh, one_body, why);
+    return make_halfplane(are_equal ? rb_bem_flexibility_toeplitz
+                                    : rb_bem_flexibility_surface_products,
+                          rc, body, mesh, one_body, why);
 }
 
 enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };

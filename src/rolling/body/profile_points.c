@@ -236,8 +236,9 @@ static double radius_of(const rb_rolling_profile *p, double lowest)
 /* ---- The curve --------------------------------------------------------------------- */
 
 /* is_smooth: 1: without corners; is_punch: 1: the body ends with the table. */
-static rb_status create(int n, const double *x, const double *gap, double noise, int is_smooth,
-                        int is_punch, rb_rolling_profile **profile, rb_message *why)
+static rb_status create_profile(int n, const double *x, const double *gap, double noise,
+                                int is_smooth, int is_punch, rb_rolling_profile **profile,
+                                rb_message *why)
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
@@ -285,17 +286,17 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
 rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
                                     rb_rolling_profile **profile, rb_message *why)
 {
-    return create(n, x, gap, noise, noise > 0.0, 0, profile, why);
+    return create_profile(n, x, gap, noise, noise > 0.0, 0, profile, why);
 }
 
 rb_status rb_rolling_profile_punch(int n, const double *x, const double *gap, double noise,
                                    rb_rolling_profile **profile, rb_message *why)
 {
-    return create(n, x, gap, noise, noise > 0.0, 1, profile, why);
+    return create_profile(n, x, gap, noise, noise > 0.0, 1, profile, why);
 }
 
 rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why)
 {
-    return create(n, x, gap, 0.0, 1, 0, profile, why);
+    return create_profile(n, x, gap, 0.0, 1, 0, profile, why);
 }

@@ -494,7 +494,7 @@ static double number_at(const rb_rolling_case *rc, const rb_option *o, size_t pl
     return o->kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at;
 }
 
-static rb_status refuse(const rb_option *o, double value, rb_message *why)
+static rb_status refuse_value(const rb_option *o, double value, rb_message *why)
 {
     char expected[200];
     rb_option_expected(o, expected, sizeof expected);
@@ -505,7 +505,7 @@ static rb_status refuse(const rb_option *o, double value, rb_message *why)
 
 rb_status rb_rolling_check_option(const rb_option *o, double value, rb_message *why)
 {
-    return rb_option_in_range(o, value) ? RB_OK : refuse(o, value, why);
+    return rb_option_in_range(o, value) ? RB_OK : refuse_value(o, value, why);
 }
 
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
@@ -535,7 +535,7 @@ rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_ca
             continue;
         if (!rb_option_in_range(o, x) && !(o->word && x == o->word_value) && x != unset &&
             !(isnan(x) && isnan(unset)))
-            return refuse(o, x, why);
+            return refuse_value(o, x, why);
     }
     return RB_OK;
 }

@@ -106,7 +106,7 @@ const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO
 /* ---- Setting ----------------------------------------------------------------------- */
 
 /* The set that has the option, its place in *k; n = 0, with a line in why: none has. */
-static rb_option_set find(rb_case *c, const char *name, int *k, rb_message *why)
+static rb_option_set find_option(rb_case *c, const char *name, int *k, rb_message *why)
 {
     rb_guess guess = {.word = name};
     const rb_option_set sets[] = {rb_case_options(c),
@@ -130,7 +130,7 @@ static rb_status set(const rb_case *c, const rb_option_set *all, int k, const ch
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why)
 {
     int k;
-    const rb_option_set all = find(c, name, &k, why);
+    const rb_option_set all = find_option(c, name, &k, why);
     if (all.n == 0)
         return RB_EINVAL;
     const char *kept = rb_case_keep(c, text);
@@ -141,7 +141,7 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
 {
     char text[32];
     int k;
-    const rb_option_set all = find(c, name, &k, why);
+    const rb_option_set all = find_option(c, name, &k, why);
     if (all.n == 0)
         return RB_EINVAL;
     if (all.options[k].kind != RB_OPTION_NUMBER && all.options[k].kind != RB_OPTION_INTEGER)
@@ -153,7 +153,7 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
 rb_status rb_case_set_word(rb_case *c, const char *name, const char *word, rb_message *why)
 {
     int k;
-    const rb_option_set all = find(c, name, &k, why);
+    const rb_option_set all = find_option(c, name, &k, why);
     return all.n == 0 ? RB_EINVAL : set(c, &all, k, word, RB_GIVEN_NUMBER, why);
 }
 

@@ -236,7 +236,7 @@ double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load)
     return rb_rolling_contact_half_width(&at_rest, load);
 }
 
-static rb_status prepare(history_state *r, double zone, rb_message *why)
+static rb_status prepare_history(history_state *r, double zone, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_rolling_history *h = r->history;
@@ -345,7 +345,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
     /* wider > 0: the zone of the next attempt; 0: this one is the last. */
     for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
         wider = 0.0;
-        s = prepare(r, zone, why);
+        s = prepare_history(r, zone, why);
         if (s == RB_OK) {
             s = rb_rolling_check_layer_resolved(model, all_rows(r, why), why);
             r->history->steady_from = rb_rolling_steady_from(&r->steady, r->rc, r->history);
@@ -448,7 +448,7 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
     rb_status s = check_followed(states, why);
     if (s == RB_OK)
         s = begin_program(&f->r, rc, why);
-    return s == RB_OK ? prepare(&f->r, f->r.base.zone, why) : s;
+    return s == RB_OK ? prepare_history(&f->r, f->r.base.zone, why) : s;
 }
 
 rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *f)

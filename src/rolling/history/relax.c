@@ -165,7 +165,7 @@ void rb_rolling_memory_track_restore(rb_rolling_memory_track *r, double *numbers
 }
 
 /* Values of both directions move by one element towards -x; nothing comes from +x. */
-static void move(int n, double *values)
+static void move_one_element(int n, double *values)
 {
     memmove(values, values + 1, (2 * (size_t)n - 1) * sizeof *values);
     values[n - 1] = values[2 * n - 1] = 0.0;
@@ -207,7 +207,7 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
     double *own = r->scratch, *sum = own + 2 * all + 2, *w = sum + 2 * all + 2;
 
     if (rolls)
-        move(all, r->traction);
+        move_one_element(all, r->traction);
     memset(w0, 0, 2 * (size_t)m * sizeof *w0);
     for (int b = 0; b < r->bodies; b++) {
         rb_rolling_relaxing *body = &r->body[b];
@@ -217,7 +217,7 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
             const rb_bem_fading f = rb_bem_fading_over(body->memory->time[k], step);
             double *past = body->past + 2 * (size_t)k * (size_t)all;
             if (rolls)
-                move(all, past);
+                move_one_element(all, past);
             cblas_daxpy(2 * all, body->memory->ratio[k] * f.kept, past, 1, sum, 1);
             cblas_daxpy(2 * all, body->memory->ratio[k] * f.before, own, 1, sum, 1);
         }
@@ -233,7 +233,7 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
 }
 
 /* x F y, the work of tractions x on the displacements of tractions y; w = F y. */
-static double work(const rb_rolling_relaxing *body, const double *x, const double *w)
+static double work_of(const rb_rolling_relaxing *body, const double *x, const double *w)
 {
     const int n = body->f.n, m = body->f.m;
     double sum = 0.0;
@@ -279,14 +279,15 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
             }
             loss_factors(time, step, factor);
             rb_bem_flexibility_apply(&body->f, e, w);
-            lost += ratio * (factor[0] * work(body, e, w) +
-                             2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
+            lost +=
+                ratio * (factor[0] * work_of(body, e, w) +
+                         2.0 * factor[1] * (work_of(body, after, w) - work_of(body, before, w)));
             of_change += ratio * factor[2];
         }
         for (size_t i = 0; i < size; i++)
             e[i] = after[i] - before[i];
         rb_bem_flexibility_apply(&body->f, e, w);
-        r->lost += lost + of_change * work(body, e, w);
+        r->lost += lost + of_change * work_of(body, e, w);
         /* what the forces give where loads that have moved on raise the contact */
         for (int way = 0; way < 2; way++)
             r->lost +=

@@ -25,7 +25,7 @@ static double time_at(const history_state *r, int done, int all)
 }
 
 /* What must hold after every step. */
-static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
+static rb_status name_step(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
 {
     if (s == RB_OK)
         return s;
@@ -81,8 +81,8 @@ rb_status rb_rolling_row_begin_step(history_state *r, rb_message *why)
     }
     /* The rows are checked beforehand; between two of them mu and the load both vary, and
      * their product may be less than a force that is linear. */
-    rb_status s = assess(r, r->program->mu ? rb_rolling_program_check_case(&step, &reason) : RB_OK,
-                         &reason, why);
+    rb_status s = name_step(
+        r, r->program->mu ? rb_rolling_program_check_case(&step, &reason) : RB_OK, &reason, why);
     if (rests) {
         if (step.formulation == RB_TRANSIENT && isnan(step.force) && isnan(step.force_ratio))
             step.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
@@ -346,7 +346,7 @@ rb_status rb_rolling_row_compute(history_state *r, int steps, rb_message *why)
                                        : rb_rolling_row_solve_step(r, &reason);
         if (s == RB_INTERRUPTED)
             return rb_fail(why, s, "interrupted after step %d of %d", r->history->n, r->rows);
-        s = assess(r, s, &reason, why);
+        s = name_step(r, s, &reason, why);
         if (s >= 0)
             rb_rolling_row_end_step(r, s);
         if (s == RB_OK && i + 1 < steps)

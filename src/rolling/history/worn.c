@@ -39,7 +39,7 @@ static void run_free(wear_state *r)
 
 /* The contact at rest, on equal elements that stay: those of an automatic zone, with
  * x = 0 in their middle, as a given one has. */
-static rb_status press(wear_state *r, rb_message *why)
+static rb_status press_at_rest(wear_state *r, rb_message *why)
 {
     rb_rolling_case at_rest = r->rc;
     const rb_rolling_mesh *mesh = &r->model.mesh;
@@ -93,7 +93,7 @@ static rb_status press(wear_state *r, rb_message *why)
 
 /* As many more elements of the same length on either side, of a wheel of the same arc, so that the
  * others stay where they are; what is worn stays where it is. */
-static rb_status widen(wear_state *r, rb_message *why)
+static rb_status widen_zone(wear_state *r, rb_message *why)
 {
     const int n = r->n, more = n / 4 + 2;
     wear_state wider = *r;
@@ -113,7 +113,7 @@ static rb_status widen(wear_state *r, rb_message *why)
                        wider.rc.zone, radius);
     memset(&wider.model, 0, sizeof wider.model);
     wider.memory = (rb_arena){0};
-    rb_status s = press(&wider, why);
+    rb_status s = press_at_rest(&wider, why);
     if (s == RB_OK && r->stroke.positions > 0)
         s = rb_rolling_stroke_widen(&r->stroke, more);
     wider.stroke = r->stroke;
@@ -197,7 +197,7 @@ static rb_status roll_stage(wear_state *r, double before, double before_b, doubl
 }
 
 /* (W4) of the radii. */
-static rb_status roll(wear_state *r, double turns, rb_message *why)
+static rb_status roll_step(wear_state *r, double turns, rb_message *why)
 {
     /* The first stage wears gamma of the step; the second one starts from what the rest of the step
      * wears by the slope of the first. */
@@ -272,7 +272,7 @@ static void scars(const wear_state *r, scar *a, scar *b)
 
 /* One row of the history, at the end of a step: what is worn so far, and the contact under the worn
  * gap. */
-static rb_status record(wear_state *r, double way, rb_message *why)
+static rb_status record_step(wear_state *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
     const int k = h->n, rolls = h->rolls;
@@ -323,7 +323,7 @@ static rb_status record(wear_state *r, double way, rb_message *why)
 
 /* What a cycle slides everywhere, under the worn gap: loading, and one closed cycle to the other
  * side and back, in static increments. */
-static rb_status fret(wear_state *r, rb_message *why)
+static rb_status fret_cycle(wear_state *r, rb_message *why)
 {
     const int quarter = r->wear->increments, rows = 5 * quarter;
     const rb_rolling_case *rc = &r->rc;
@@ -413,7 +413,7 @@ static rb_status align_with_stick(wear_state *r, rb_message *why)
     /* A round: a cycle, the length that its stick edges ask for, and a mesh of that length, on
      * which the edges lie a little elsewhere. */
     for (int k = 0; k < ROUNDS && s == RB_OK; k++) {
-        s = fret(r, why);
+        s = fret_cycle(r, why);
         if (s != RB_OK || !stick_run(r, &from, &to))
             break;
         const double h = r->model.bodies.f.h[0];
@@ -429,7 +429,7 @@ static rb_status align_with_stick(wear_state *r, rb_message *why)
             break;
         r->rc.zone *= factor;
         rb_rolling_model_free(&r->model);
-        s = press(r, why);
+        s = press_at_rest(r, why);
     }
     if (s != RB_OK)
         return s;
@@ -515,7 +515,7 @@ static rb_status see_stroke(wear_state *r, rb_message *why)
  * gap which half a step with the path at its start wears. */
 static rb_status set_rate(wear_state *r, double depth, rb_message *why)
 {
-    rb_status s = fret(r, why);
+    rb_status s = fret_cycle(r, why);
 
     if (s == RB_OK)
         s = see_stroke(r, why);
@@ -533,7 +533,7 @@ static rb_status set_rate(wear_state *r, double depth, rb_message *why)
     s = rb_rolling_press_worn(r, 0.5, r->pressed, why);
     if (s == RB_OK) {
         rb_rolling_wear_off(r, 0.5, r->now);
-        s = fret(r, why);
+        s = fret_cycle(r, why);
     }
     memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
     for (int i = 0; i < r->n; i++)
@@ -564,10 +564,10 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
     double mean = 0.0;
 
     if (r->rc.formulation == RB_STEADY)
-        return roll(r, part, why);
+        return roll_step(r, part, why);
     for (int k = 0; k < WIDER && s == RB_ZONE; k++) {
         reason.text[0] = '\0';
-        s = k > 0 ? widen(r, &reason) : RB_OK;
+        s = k > 0 ? widen_zone(r, &reason) : RB_OK;
         memcpy(r->start, r->depth, (size_t)r->n * sizeof *r->start);
         if (r->stroke.positions > 0)
             rb_rolling_stroke_keep(&r->stroke);
@@ -606,7 +606,7 @@ static rb_rolling_case worn_case(const rb_rolling_case *rc, const rb_rolling_wea
 }
 
 /* Which laws, motions and bodies wear is computed for, before anything is solved. */
-static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
+static rb_status check_wear(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
     const rb_rolling_case worn = worn_case(rc, wear);
 
@@ -682,7 +682,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     rb_rolling_press_by_load(&r.rc);
     r.rc.increments = 1; /* the cycles have their own */
     r.was_worn = rc->worn.n > 0;
-    rb_status s = check(rc, wear, why);
+    rb_status s = check_wear(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
     /* Columns that this kind of wear has not: NULL, so that no table shows them. */
@@ -707,7 +707,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     history->rolls = rc->formulation == RB_STEADY;
     if (s == RB_OK)
         s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
-                                         : press(&r, why);
+                                         : press_at_rest(&r, why);
     /* Fretting: elements about the stick zone; then the worn gap and the first pressure. */
     if (s == RB_OK && rc->formulation != RB_STEADY && !wear->slides && rc->zone == 0.0)
         s = align_with_stick(&r, why);
@@ -718,12 +718,12 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK && rc->formulation != RB_STEADY)
         memcpy(r.pressed, r.model.state.p, (size_t)r.n * sizeof *r.pressed);
     if (s == RB_OK)
-        s = record(&r, 0.0, why);
+        s = record_step(&r, 0.0, why);
     /* Equal steps; the last row is exactly at the end. */
     for (int k = 1; k <= wear->steps && s == RB_OK; k++) {
         s = one_step(&r, part, why);
         if (s == RB_OK)
-            s = record(&r, k == wear->steps ? wear->way : k * part, why);
+            s = record_step(&r, k == wear->steps ? wear->way : k * part, why);
         else if (s == RB_INTERRUPTED)
             rb_fail(why, s, "interrupted after step %d of %d", k - 1, wear->steps);
     }

@@ -89,7 +89,7 @@ static double by_secant(const edge *e, double beyond, int across)
  * an element between unlike bodies, and no mesh may find its own edge.  Such a jump is
  * bracketed, and the edge stays on its outer side.  Returns how far from rest it is, in
  * elements. */
-static double refine(edge *e, double found, double h, int across)
+static double refine_aligned_edge(edge *e, double found, double h, int across)
 {
     const double beyond = found - e->at, moved = fabs(beyond) / h,
                  next = e->at + by_secant(e, beyond, across);
@@ -145,7 +145,8 @@ static rb_status align(rb_rolling_model *model, int rounds, double *off, int *re
             left = edge_at(-from);
             right = edge_at(to);
         } else if (s == RB_OK) {
-            moved = fmax(refine(&left, -from, h, across), refine(&right, to, h, across));
+            moved = fmax(refine_aligned_edge(&left, -from, h, across),
+                         refine_aligned_edge(&right, to, h, across));
             drifts = (moved <= NEAR_REST && fabs(moved - before) < DRIFT * before) ||
                      left.is_lost || right.is_lost;
             before = moved;

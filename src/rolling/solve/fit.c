@@ -119,7 +119,7 @@ typedef struct {
  * identity there: so the fixed point is bracketed.  Results are best on the outer side of
  * the jump.  fitted, found: outward positions; h: element beside the edge.  Returns how
  * far from rest the edge is, in elements, and where to fit next. */
-static double refine(double found, double h, double *fitted, bracket *b)
+static double refine_fitted_edge(double found, double h, double *fitted, bracket *b)
 {
     const double moved = fabs(found - *fitted) / h;
 
@@ -148,7 +148,7 @@ typedef struct {
     bracket left, right;
 } brackets;
 
-static void forget(brackets *known)
+static void forget_brackets(brackets *known)
 {
     const bracket open = {-INFINITY, INFINITY};
 
@@ -214,7 +214,7 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
     rb_status s = find_patches(model, &fitted);
     int rest = 0, by_far_field = 0;
 
-    forget(known);
+    forget_brackets(known);
     for (int k = 0; k < fitted.count; k++) {
         rb_rolling_span *span = &fitted.span[k];
         span->margin_left = fmax(span->margin_left, room * (span->to - span->from));
@@ -247,8 +247,10 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
                 const rb_rolling_span *now = &found.span[k];
                 rb_rolling_span *span = &fitted.span[k];
                 double left = -span->from;
-                moved = fmax(moved, refine(-now->from, now->h_left, &left, &known[k].left));
-                moved = fmax(moved, refine(now->to, now->h_right, &span->to, &known[k].right));
+                moved =
+                    fmax(moved, refine_fitted_edge(-now->from, now->h_left, &left, &known[k].left));
+                moved = fmax(moved,
+                             refine_fitted_edge(now->to, now->h_right, &span->to, &known[k].right));
                 span->from = -left;
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
@@ -264,7 +266,7 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
                    (is_checked && same_edges(&expected, &found));
             if (will_match && rest) {
                 s = rb_rolling_far_field_match(model, model->far, why);
-                forget(known);
+                forget_brackets(known);
                 rest = 0;
             } else if (by_systems && (rest || is_last)) {
                 expected = rest ? found : (patches){.count = 0};
@@ -272,9 +274,9 @@ static rb_status refit(rb_rolling_model *model, double room, int with_systems, d
                 rest = 0;
             }
             if (has_far && !model->far)
-                forget(known);
+                forget_brackets(known);
         } else {
-            forget(known);
+            forget_brackets(known);
             fitted = found;
         }
     }

@@ -31,8 +31,8 @@ static void set_totals(const rb_bem_edge_load *load, rb_rolling_solution *s)
 }
 
 /* A model with n elements and no body. */
-static rb_status begin(const rb_rolling_case *rc, int n, rb_rolling_model *model,
-                       rb_rolling_solution *s, rb_message *why)
+static rb_status begin_given(const rb_rolling_case *rc, int n, rb_rolling_model *model,
+                             rb_rolling_solution *s, rb_message *why)
 {
     *model = (rb_rolling_model){.rc = NULL};
     *s = rb_rolling_no_row(RB_OK).solution; /* what no contact has is not there */
@@ -85,7 +85,7 @@ rb_status rb_rolling_model_of_nodes(const rb_rolling_case *rc, int n, const doub
                            x[k]);
     if (n < 2 || !(x[n - 1] > x[0]))
         return rb_fail(why, RB_EFORMAT, "tractions need two rows at different places");
-    rb_status status = begin(rc, n - 1, model, s, why);
+    rb_status status = begin_given(rc, n - 1, model, s, why);
     if (status != RB_OK)
         return status;
     model->given = calloc(1, sizeof *model->given);
@@ -117,7 +117,7 @@ rb_status rb_rolling_model_of_elements(const rb_rolling_case *rc, int n, const d
     /* a table does not say how it came about: ends of stick are taken as those of steady rolling */
     rb_rolling_case steady = *rc;
     steady.formulation = RB_STEADY;
-    rb_status status = begin(&steady, n, model, s, why);
+    rb_status status = begin_given(&steady, n, model, s, why);
     if (status != RB_OK)
         return status;
     for (int k = 0; k < n; k++) {

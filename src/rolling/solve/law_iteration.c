@@ -236,7 +236,7 @@ static void relax(relaxation *r, const rb_contact_problem *p, double change, dou
     }
 }
 
-static rb_status measure(rb_rolling_model *model, rb_message *why)
+static rb_status measure_residual(rb_rolling_model *model, rb_message *why)
 {
     const double allowed = fmax(model->rc->contact.tol, model->problem.rounding);
     rb_contact_violation violation;
@@ -338,7 +338,7 @@ rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *wh
 
 /* Where the iteration leaves every solution, because friction falls steeply there,
  * Newton's method goes on from where it has come, and from other starts. */
-static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
+static rb_status iterate_coefficients(rb_rolling_model *model, int warm, rb_message *why)
 {
     enum { STARTS = 6, MOST = 2000 };
     const double enough = enough_of(model);
@@ -347,7 +347,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
     rb_status s = go_round(model, warm, why);
 
     if (s != RB_MAXITER)
-        return s == RB_OK ? measure(model, why) : s;
+        return s == RB_OK ? measure_residual(model, why) : s;
     s = rb_rolling_law_newton(model, enough, &left, why);
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     for (int k = 0; k <= STARTS && s > 0 && left > 0; k++) {
@@ -356,7 +356,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
         if (s == RB_MAXITER)
             s = rb_rolling_law_newton(model, enough, &left, why);
     }
-    return s == RB_OK ? measure(model, why) : s;
+    return s == RB_OK ? measure_residual(model, why) : s;
 }
 
 /* ---- A given force ----------------------------------------------------------------- */
@@ -379,7 +379,7 @@ static rb_status lack(search *s, double x, double *f)
     p->force_given = 0;
     p->xi = s->side * x;
     rb_contact_set_friction(p, p->mu, s->start);
-    const rb_status status = iterate(model, 1, s->why);
+    const rb_status status = iterate_coefficients(model, 1, s->why);
     p->force_given = 1;
     set_force(model);
     *f = s->side *
@@ -474,7 +474,7 @@ static rb_status solve_between(search *s, double from, double to, double small)
 
     for (int k = 0; k < ROUNDS && status == RB_OK && fabs(p->force - before) > small; k++) {
         before = p->force;
-        status = iterate(model, 1, NULL);
+        status = iterate_coefficients(model, 1, NULL);
         set_force(model);
     }
     const double x = s->side * model->state.xi;
@@ -520,7 +520,7 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         }
     }
     free(by.start);
-    return s == RB_OK ? measure(model, why) : s;
+    return s == RB_OK ? measure_residual(model, why) : s;
 }
 
 /* From the solution of the same case on other elements: the force is reached close to its
@@ -544,7 +544,7 @@ static rb_status follow_force(rb_rolling_model *model)
     }
     if (s == RB_OK && !(fabs(model->state.xi - xi) <= CLOSE * unit))
         s = RB_MAXITER;
-    return s == RB_OK ? measure(model, NULL) : s;
+    return s == RB_OK ? measure_residual(model, NULL) : s;
 }
 
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
@@ -567,7 +567,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
             rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, p);
     }
     if (s > 0)
-        s = p->force_given ? solve_force(model, why) : iterate(model, warm, why);
+        s = p->force_given ? solve_force(model, why) : iterate_coefficients(model, warm, why);
     return model->state.status = s;
 }
 

@@ -60,8 +60,8 @@ static rb_status pressure_under(const rb_rolling_case *rc, double load, double *
 /* Secants in ln P over ln p, kept between loads with too little and too much pressure.  follows: 1:
  * the zone is a multiple of the contact's half-width under each load, and at.zone is set to it; 0:
  * a zone that fills has too much load. */
-static rb_status search(rb_rolling_case *at, double wanted, int follows, double near, double *load,
-                        rb_message *why)
+static rb_status search_load(rb_rolling_case *at, double wanted, int follows, double near,
+                             double *load, rb_message *why)
 {
     enum { MOST = 60 };
     double multiple = NAN, low = NAN, high = NAN, before = NAN, off_before = NAN;
@@ -127,11 +127,11 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
      * the same load, to the last bit. */
     if (rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0) {
         double load = start;
-        s = search(&at, wanted, 1, ROUGHLY, &load, why);
+        s = search_load(&at, wanted, 1, ROUGHLY, &load, why);
     }
     double load = start;
     if (s == RB_OK)
-        s = search(&at, wanted, 0, NEAR, &load, why);
+        s = search_load(&at, wanted, 0, NEAR, &load, why);
     if (s == RB_OK && rc->gap == RB_GAP_TABLE) {
         rb_rolling_case finer = at;
         double pressure;

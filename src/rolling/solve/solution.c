@@ -316,8 +316,8 @@ static int slip_violations(const rb_rolling_model *model, const rb_rolling_solut
 }
 
 /* with_products: 1: displacements and what follows from them, too. */
-static rb_status summarise(const rb_rolling_model *model, int with_products, rb_rolling_solution *s,
-                           rb_message *why)
+static rb_status summarise_model(const rb_rolling_model *model, int with_products,
+                                 rb_rolling_solution *s, rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
@@ -415,13 +415,13 @@ static rb_status summarise(const rb_rolling_model *model, int with_products, rb_
 rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                    rb_message *why)
 {
-    return summarise(model, 1, s, why);
+    return summarise_model(model, 1, s, why);
 }
 
 rb_status rb_rolling_tractions_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                         rb_message *why)
 {
-    return summarise(model, 0, s, why);
+    return summarise_model(model, 0, s, why);
 }
 
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,

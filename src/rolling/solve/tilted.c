@@ -21,8 +21,8 @@ static double slope_of(const rb_rolling_case *rc, const rb_rolling_solution *s)
 
 /* Secants, kept between tilts with too little and too much moment, which grows with the tilt.
  * widest: the half-width of the potential contact that the last one needs. */
-static rb_status search(rb_rolling_case *at, double wanted, double near, double *widest,
-                        rb_message *why)
+static rb_status search_tilt(rb_rolling_case *at, double wanted, double near, double *widest,
+                             rb_message *why)
 {
     enum { MOST = 60 };
     const double strain = rb_rolling_derive(at).strain;
@@ -91,12 +91,12 @@ rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why)
     at.tilt = start;
     /* In a zone of its own, so that a case which gives the zone has the same tilt. */
     if (s == RB_OK && rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0) {
-        s = search(&at, rc->moment, ROUGHLY, &widest, why);
+        s = search_tilt(&at, rc->moment, ROUGHLY, &widest, why);
         at.zone = widest;
         at.tilt = start;
     }
     if (s == RB_OK)
-        s = search(&at, rc->moment, NEAR, &widest, why);
+        s = search_tilt(&at, rc->moment, NEAR, &widest, why);
     if (s == RB_OK) {
         rc->tilted_by = at.tilt;
         rc->zone = at.zone;

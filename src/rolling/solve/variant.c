@@ -336,9 +336,9 @@ static rb_status borrow_rows(const rb_rolling_model *of, rb_rolling_model *v)
 /* results: 0: the equations alone; 1: also all results; -1: what needs the flexibilities
  * themselves. perturbation: of the model; NULL: bodies whose change no formula tells are built
  * anew. */
-static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
-                        int own_bodies, rb_rolling_perturbation *perturbation, motion moved,
-                        rb_rolling_model *v, rb_message *why)
+static rb_status create_variant(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
+                                int own_bodies, rb_rolling_perturbation *perturbation, motion moved,
+                                rb_rolling_model *v, rb_message *why)
 {
     rb_rolling_plan plan = rb_rolling_plan_of(rc);
     /* Three ways, from cheap to dear: all rows borrowed, the bodies borrowed with the change of
@@ -388,7 +388,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_perturbation *perturbation,
                                   double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 1, 0, perturbation, (motion){shift, scale}, v, why);
+    return create_variant(of, of->rc, 1, 0, perturbation, (motion){shift, scale}, v, why);
 }
 
 /* Gap and bounds on moved elements alone, n each: the data of the equations without bodies. */
@@ -420,7 +420,7 @@ rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, doub
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, -1, 0, NULL, (motion){shift, scale}, v, why);
+    const rb_status s = create_variant(of, rc, -1, 0, NULL, (motion){shift, scale}, v, why);
     return s == RB_OK ? rb_rolling_variant_complete(v, NULL, NULL, why) : s;
 }
 
@@ -429,13 +429,13 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
                                     rb_rolling_perturbation *perturbation, rb_rolling_model *v,
                                     rb_message *why)
 {
-    return create(of, rc, results, own_bodies, perturbation, at_rest, v, why);
+    return create_variant(of, rc, results, own_bodies, perturbation, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *v,
                                      rb_message *why)
 {
-    rb_status s = create(of, of->rc, -1, 1, NULL, at_rest, v, why);
+    rb_status s = create_variant(of, of->rc, -1, 1, NULL, at_rest, v, why);
 
     if (s == RB_OK)
         s = rb_rolling_variant_complete(v, NULL, NULL, why);

@@ -216,8 +216,8 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, double radius, int n, dou
 }
 
 /* sxx, syy, sxy at each point. */
-static rb_status evaluate(const rb_rolling_field *f, int n, const double *xy, rb_arena *scratch,
-                          double *sigma, rb_message *why)
+static rb_status evaluate_stress(const rb_rolling_field *f, int n, const double *xy,
+                                 rb_arena *scratch, double *sigma, rb_message *why)
 {
     if (f->ring)
         return rb_bem_ring_field_stress(f->ring, (rb_bem_points){n, xy}, sigma, why);
@@ -261,7 +261,7 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
     double *sigma = rb_arena_doubles(&scratch, (size_t)n, 3);
 
     rb_phase("stress inside the body");
-    const rb_status status = sigma ? evaluate(f, n, xy, &scratch, sigma, why) : RB_ENOMEM;
+    const rb_status status = sigma ? evaluate_stress(f, n, xy, &scratch, sigma, why) : RB_ENOMEM;
     if (status != RB_OK)
         return rb_arena_done(&scratch, status);
     for (int k = 0; k < n; k++) {

@@ -36,7 +36,8 @@ static int is_known(const rb_rolling_solutions *all, const rb_rolling_model *mod
     return 0;
 }
 
-static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model, rb_message *why)
+static rb_status keep_if_new(rb_rolling_solutions *all, const rb_rolling_model *model,
+                             rb_message *why)
 {
     rb_rolling_solution *more = realloc(all->solution, sizeof *more * ((size_t)all->n + 1));
 
@@ -72,7 +73,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     if (model->problem.force_given)
         return rb_fail(why, RB_EINVAL,
                        "all solutions: at a given creepage, not under a given force");
-    rb_status s = keep(all, model, why);
+    rb_status s = keep_if_new(all, model, why);
     if (s == RB_OK)
         s = rb_rolling_free_creepage_if_any(model, &free_creepage, why);
     rb_rolling_contact_edges(rc, &model->mesh, &model->state, &from, &to);
@@ -89,7 +90,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
         if (t == RB_ENOMEM)
             s = rb_fail(why, t, "%s", reason.text);
         else if (t == RB_OK && !is_known(all, model))
-            s = keep(all, model, why);
+            s = keep_if_new(all, model, why);
     }
     for (int k = 0; k < all->n; k++)
         all->solution[k].free_creepage = free_creepage;

@@ -75,8 +75,8 @@ static rb_status keep_last(const rb_rolling_model *model, rb_rolling_curve *c, r
 }
 
 /* The columns of one more point, from the state as solved. */
-static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
-                        rb_message *why)
+static rb_status record_point(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
+                              rb_message *why)
 {
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
@@ -287,7 +287,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             first = first == RB_OK ? s : first;
             s = record_unsolved(model, r, value, s, c, why);
         } else if (s >= 0 && model->state.p) {
-            const rb_status t = record(model, w, c, why);
+            const rb_status t = record_point(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }
@@ -320,7 +320,7 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
             first = first == RB_OK ? s : first;
             s = record_unsolved(model, r, steady.speed, s, c, why);
         } else if (s >= 0 && model->state.p) {
-            const rb_status t = record(model, w, c, why);
+            const rb_status t = record_point(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }

@@ -685,8 +685,8 @@ static int pressure_could_come(const estimate *first, const estimate *now, doubl
  * is reached, or twice that would not do, or not the limit itself at the order of the rounds
  * before: where the pressure is singular, as at the end of stick between unlike bodies, finer ones
  * would take minutes and hardly be better. */
-static int refine(double accuracy, const estimate *first, const estimate *now, int fitted,
-                  rb_rolling_case *rc)
+static int refined_elements(double accuracy, const estimate *first, const estimate *now, int fitted,
+                            rb_rolling_case *rc)
 {
     const int wheels = rb_rolling_error_runs(rc) > 2;
     const rb_rolling_mesh twice = {.n = 2 * rc->contact_elements};
@@ -760,8 +760,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                          worst_relative(rc, solution, &parts.boundary.scalar, &of_part),
                          parts.contact.scalar.max_pressure / solution->max_pressure};
         first = round == 1 ? now : first;
-    } while (stood < 2 &&
-             refine(accuracy, &first, &now, second_order && !solution->equal_instead, &refined));
+    } while (stood < 2 && refined_elements(accuracy, &first, &now,
+                                           second_order && !solution->equal_instead, &refined));
     if (status == RB_ENOMEM || status == RB_EINVAL) /* more than the machine has is refused */
         return rb_fail(why, RB_ENOMEM,
                        "accuracy %g: out of memory beyond %d elements, whose estimated error is "

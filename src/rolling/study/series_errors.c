@@ -105,7 +105,7 @@ static int steps_at_rest(const rb_rolling_history *h)
 }
 
 /* Where the entry of a rolled step belongs. */
-static double place(const rb_rolling_history *h, int is_mean, int k, int rest)
+static double place_of_entry(const rb_rolling_history *h, int is_mean, int k, int rest)
 {
     const double before = k > rest ? h->distance[k - 1] : 0.0;
 
@@ -125,14 +125,15 @@ static void place_column(const rb_rolling_history *from, const double *column, i
             out[i] = column[i];
             continue;
         }
-        const double x = place(to, is_mean, i, rest);
-        while (k + 2 < from->n && place(from, is_mean, k + 1, rest) < x)
+        const double x = place_of_entry(to, is_mean, i, rest);
+        while (k + 2 < from->n && place_of_entry(from, is_mean, k + 1, rest) < x)
             k++;
         /* Linear between entries k and k + 1 of a column; beyond the last one that. */
         if (k + 1 >= from->n)
             out[i] = column[from->n - 1];
         else {
-            const double x0 = place(from, is_mean, k, rest), x1 = place(from, is_mean, k + 1, rest);
+            const double x0 = place_of_entry(from, is_mean, k, rest),
+                         x1 = place_of_entry(from, is_mean, k + 1, rest);
             out[i] = column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
         }
     }
@@ -140,7 +141,7 @@ static void place_column(const rb_rolling_history *from, const double *column, i
 
 /* An error changes its sign wherever an edge passes an element: each rolled step takes
  * the largest of its own and its neighbours'. */
-static rb_status widen(const rb_rolling_history *h, double *error)
+static rb_status widen_errors(const rb_rolling_history *h, double *error)
 {
     const int rest = steps_at_rest(h), rolled = h->n - rest;
     double *own = rb_alloc((size_t)h->n, 1);
@@ -188,7 +189,7 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
     }
     for (int k = 0; k < columns->n && s == RB_OK; k++)
         if (columns->row[k].error_bar && rb_rolling_has_column(&columns->row[k], errors))
-            s = widen(own, rb_rolling_column(&columns->row[k], errors));
+            s = widen_errors(own, rb_rolling_column(&columns->row[k], errors));
     return s;
 }
 
