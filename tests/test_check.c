@@ -637,6 +637,26 @@ TEST(tables_are_valid_by_their_comments)
     assert_non_null(strstr(out, ": printed 0.001, recomputed"));
 }
 
+/* The residual of a table has three digits: the last one may have been rounded up or down, and no
+ * more.  With this tolerance the residual is that of the law, far above rounding. */
+TEST(what_a_comment_states_is_rounded)
+{
+    static const char run[] =
+        "\"$R\" --similar --support halfplane --half-width 1 --radius 100 --mu .2 "
+        "--friction-law exponential --mu-fall .1 --slip-scale 500 --speed 100000 "
+        "--formulation steady --creep-ratio .5 --contact-elements 40 --tol 1e-6 --quiet";
+    char line[600];
+    for (int more = -2; more <= 2; more++) {
+        snprintf(line, sizeof line,
+                 "%s | awk '/; residual/ {r = $NF; n = length(r); e = substr(r, n - 3); "
+                 "d = substr(r, 1, n - 4); sub(/residual .*/, sprintf(\"residual %%.2f%%s\", "
+                 "d + %d / 100, e))} 1' > t.tsv; \"$R\" check t.tsv",
+                 run, more);
+        assert_int_equal(shell(line), abs(more) > 1);
+        assert_non_null(strstr(out, abs(more) > 1 ? "violated: comments" : "t.tsv: valid"));
+    }
+}
+
 TEST(tables_that_cannot_be_checked_are_refused)
 {
     static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 ";
