@@ -88,7 +88,7 @@ TEST(sliding_wears_its_volume)
  * by 5.7e-2, 2.7e-2, 1.3e-2. */
 TEST(steps_are_of_second_order)
 {
-    static const double error[] = {3.7e-4, -1.7e-4, -3.3e-4}; /* theory-rolling.md W4 */
+    static const double error[] = {3.8e-4, -1.7e-4, -3.3e-4}; /* theory-rolling.md W4 */
     static const int steps[] = {5, 10, 20};
     const rb_rolling_case rc = cylinder(300, 4.0);
     for (int k = 0; k < 3; k++) {
@@ -307,6 +307,27 @@ TEST(bars_hold_where_the_order_is_the_first)
         CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &message));
         CHECK_ABS(w.h.worn[10], rows[k].volume, w.h.errors->worn[10], "%s", rows[k].words);
         CHECK_MAX(w.h.errors->worn[10], rows[k].most * rows[k].volume, "%s", rows[k].words);
+        worn_free(&w);
+    }
+}
+
+/* An element on which the contact has only begun to lean when the second stage comes: it was left
+ * as it stood there, and carried 150 MPa where 101.4 are right. */
+TEST(elements_at_a_growing_edge_do_not_stand_out)
+{
+    static const int steps[] = {5, 10, 20};
+    rb_rolling_case rc = half_plane(RB_STATIC, 30);
+    set(&rc, "radius 100 mu 0.27 young 210000 poisson 0.222 similar load 200 shift 0.01");
+    rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1e6};
+
+    wear.increments = 8;
+    for (int k = 0; k < 3; k++) {
+        wear.steps = steps[k];
+        worn w = run(&rc, &wear);
+        for (int i = 1; i < w.h.n; i++)
+            CHECK_MAX(w.h.max_pressure[i] / w.h.max_pressure[i - 1], 1.0, "%d steps, %d", steps[k],
+                      i);
+        CHECK_REL(w.h.max_pressure[w.h.n - 1], 101.31, 2e-3, "%d steps: p0 in the end", steps[k]);
         worn_free(&w);
     }
 }

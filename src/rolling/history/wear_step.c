@@ -107,16 +107,21 @@ double rb_rolling_carried_load(const wear_state *r)
 }
 
 /* 1: elements that carried nothing under the pressure p now carry more than this part of the
- * largest one.  A stage wears them by its own weight alone, so that they stand out afterwards. */
+ * largest one.  A stage wears them by its own weight alone, so that they stand out afterwards.
+ * Those on which the contact had only begun to lean do so where they carry more than their
+ * neighbours. */
 static int has_grown(const wear_state *r, const double *p, double most)
 {
     static const double COUNTS = 1e-3;
     const int all = r->n * rb_rolling_wear_positions(r);
     const double p0 = rb_norm_inf((size_t)all, r->pressed);
 
-    for (int i = 0; i < all; i++)
-        if (p[i] <= COUNTS * p0 && r->now[i] - p[i] > most * p0)
+    for (int i = 0; i < all; i++) {
+        const double before = i > 0 ? r->now[i - 1] : 0.0, next = i + 1 < all ? r->now[i + 1] : 0.0;
+        const int stands_out = p[i] < 0.5 * r->now[i] && r->now[i] > fmax(before, next);
+        if ((p[i] <= COUNTS * p0 || stands_out) && r->now[i] - p[i] > most * p0)
             return 1;
+    }
     return 0;
 }
 
