@@ -137,6 +137,11 @@ TEST(blocks_of_the_readme_print_what_it_shows)
     assert_int_equal(run_page("README.md", 3, 1, folder), 0);
 }
 
+TEST(commands_of_the_examples_run)
+{
+    assert_int_equal(run_page("examples/README.md", 4, 1, folder), 0);
+}
+
 /* What the sections of this turn have written besides pictures. */
 static void expect_written(const char *file, const char *shown_by)
 {

@@ -194,6 +194,10 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
 enum { SHAPES = 4 };
 
 #define ON_WHITE " background '#ffffff' enhanced"
+/* PDF and EPS are the same page. */
+#define ON_PAPER                                                                                   \
+    "DejaVu Sans", ON_WHITE, "in", 1, {10, 12, 13.33, 13.33}, {7.5, 5, 7.5, 7.5},                  \
+        {21, 19, 20, 20}, {1.6, 1.6, 1.5, 1.5}, 21
 
 /* Each shape in its own size: width and height in `unit`, of which an inch has so many.
  * The key needs its font named: svg would take a larger one.  LaTeX sets the letters of its
@@ -221,26 +225,8 @@ static const struct {
               {18, 14, 18, 18},
               {1.5, 1.5, 1.4, 1.4},
               15},
-             {"pdfcairo",
-              "DejaVu Sans",
-              ON_WHITE,
-              "in",
-              1,
-              {10, 12, 13.33, 13.33},
-              {7.5, 5, 7.5, 7.5},
-              {21, 19, 20, 20},
-              {1.6, 1.6, 1.5, 1.5},
-              21},
-             {"epscairo",
-              "DejaVu Sans",
-              ON_WHITE,
-              "in",
-              1,
-              {10, 12, 13.33, 13.33},
-              {7.5, 5, 7.5, 7.5},
-              {21, 19, 20, 20},
-              {1.6, 1.6, 1.5, 1.5},
-              21},
+             {"pdfcairo", ON_PAPER},
+             {"epscairo", ON_PAPER},
              {"tikz",
               "",
               "",
