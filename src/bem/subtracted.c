@@ -93,6 +93,8 @@ static void left_over(const rb_subtracted *p, const seen_from *at, int c,
     const rb_bem_mesh *mesh = &p->s->mesh;
     double complex view[BLOCK], turned[BLOCK];
     rb_strip_answer u[BLOCK] = {{0.0, 0.0}};
+    /* Displacements cost more than tractions, and are needed only where a support holds the body.
+     */
     int held = 0;
 
     look(p, at, c, view, turned);
@@ -105,6 +107,8 @@ static void left_over(const rb_subtracted *p, const seen_from *at, int c,
                   held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
         rb_strip_answer t = {0.0, 0.0};
 
+        /* On a bonded contour the core takes part: what is left over there has been computed
+         * once. */
         if (p->bonded && k >= p->s->bond->first) {
             const size_t rows = 2 * (size_t)p->s->bond->n;
             const double *own =
@@ -113,6 +117,7 @@ static void left_over(const rb_subtracted *p, const seen_from *at, int c,
                 memcpy(value[l] + 2 * i, own + (size_t)l * rows, 2 * sizeof *own);
             continue;
         }
+        /* On its own element the strip's traction is the load itself, of which nothing is left. */
         if (!(held_x && held_y) && k != mesh->contact_first + c)
             t = rb_strip_traction_of(&p->strip[c], view[i], turned[i], at->outward[i]);
         for (int l = 0; l < 2; l++) {
@@ -123,6 +128,8 @@ static void left_over(const rb_subtracted *p, const seen_from *at, int c,
     }
 }
 
+/* The strip is one on a half-plane, which has to contain the whole body: the contour must not reach
+ * above the line of a contact element. */
 rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -181,6 +188,8 @@ void rb_subtracted_free(rb_subtracted *p)
     free(p);
 }
 
+/* X (ld x loads) += [G, -H] times what the strips leave at the boundary; R (units x loads): loads
+ * that are combinations of unit loads, or NULL: the unit loads themselves. */
 static rb_status subtracted_loads_dense(const rb_subtracted *p, int loads, const double *R,
                                         double *X)
 {
@@ -372,6 +381,8 @@ static rb_status multiply_values(const rb_subtracted *p, const rb_given *given, 
     return s;
 }
 
+/* Near the contact every load by itself, far away by the few whose fields all others are
+ * combinations of (T). */
 static rb_status subtracted_loads_long(const rb_subtracted *p, double *X)
 {
     const rb_bem_system *s = p->s;
@@ -412,6 +423,7 @@ rb_status rb_subtracted_loads(const rb_subtracted *p, int loads, const double *R
     const int units = 2 * p->s->mesh.contact_n;
     const size_t rows = (size_t)p->s->ld;
 
+    /* Dense where there is a matrix A; a tree's products otherwise, of unit loads first. */
     memset(X, 0, rows * (size_t)loads * sizeof *X);
     if (p->s->A)
         return subtracted_loads_dense(p, loads, R, X);

@@ -27,6 +27,8 @@ static interval of_multiplier(lcp_side side, double low, double high)
         return (interval){0.0, 0.0};
     if (side == LCP_BETWEEN)
         return (interval){-INFINITY, INFINITY};
+    /* w_i >= 0 at a lower bound wants y_i >= 0, w_i <= 0 at an upper one y_i <= 0; between its
+     * bounds w_i = 0, and any y_i does. */
     const int at_lower = side == LCP_AT_LOWER || (side == LCP_OPEN && isfinite(low));
     const int at_upper = side == LCP_AT_UPPER || (side == LCP_OPEN && isfinite(high));
     return (interval){at_upper && !at_lower ? -INFINITY
@@ -114,6 +116,7 @@ static double least_sum(const farkas *p, const double *y, const double *radius, 
     }
     for (int j = 0; useful && j < n; j++) {
         const lcp_side at = p->side ? p->side[j] : LCP_OPEN;
+        /* The interval of z_j by its side, and by what is known of every solution. */
         double low = at == LCP_AT_UPPER ? rb_lcp_upper(p->upper, j) : rb_lcp_lower(p->lower, j),
                high = at == LCP_AT_LOWER || at == LCP_LEFT_OUT ? low : rb_lcp_upper(p->upper, j), c,
                error;
@@ -128,6 +131,8 @@ static double least_sum(const farkas *p, const double *y, const double *radius, 
         if (isfinite(low) && isfinite(high)) /* at the end that makes the sum larger */
             add_product(&sum, c, c > 0.0 ? high : low, error * fmax(fabs(low), fabs(high)));
         else {
+            /* An infinite end of z_j: only the sign of the coefficient counts, which has to be
+             * certain. */
             const int sign = c - error > 0.0   ? 1
                              : c + error < 0.0 ? -1
                              : radius          ? RB_SIGN_UNKNOWN
@@ -180,6 +185,8 @@ static int common_multiple(size_t n, const double *y)
     const double size = rb_norm_inf(n, y);
     double by = 1.0;
     for (size_t i = 0; i < n && by <= most; i++) {
+        /* Continued fraction of y_i times the number so far: its denominators are those of the best
+         * approximations. */
         double rest = y[i] / size * by, before = 0.0, denominator = 1.0;
         const double x = rest;
         while (fabs(x * denominator - round(x * denominator)) > within &&
@@ -202,6 +209,8 @@ typedef struct {
 static equations find_equations(const farkas *p, const double *y, int *memory)
 {
     static const double vanishes = 1e-11;
+    /* Unknowns are the y_i that are not zero; equations, that the coefficients vanish which have
+     * to. */
     const int n = p->M->n;
     equations e = {.row = memory, .column = memory + n, .is_zero = memory + 2 * n};
     for (int i = 0; i < n; i++)
@@ -277,6 +286,8 @@ static int encloses(const farkas *p, const double *y)
         yes = choose_rows(&e, block, swap_of, order);
         copy_block(p->M, &e, block, place);
     }
+    /* k equations for k of the y_i, the other ones as they are: a regular linear system, whose
+     * solution has proved bounds. */
     double *A = yes ? malloc(k * k * sizeof *A) : NULL;
     for (size_t j = 0; A && j < k; j++) {
         proof_dot sum = {0};
@@ -323,6 +334,7 @@ static int is_certain(const farkas *p, const double *y)
 
 /* ---- The question ------------------------------------------------------------------ */
 
+/* First in plain arithmetic, which is fast and mostly says no; only then with certainty. */
 int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, const double *upper,
                     const lcp_side *side, double *y)
 {

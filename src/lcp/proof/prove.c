@@ -73,6 +73,7 @@ static int are_opposite(const prover *p, int i, int j, const int *set, int but_o
     return 1;
 }
 
+/* By the moduli, so that opposite columns have the same hash; of long columns some entries. */
 static uint64_t hash_of_column(const rb_sparse *M, int j)
 {
     const int first = M->p[j], count = M->p[j + 1] - first;
@@ -140,6 +141,7 @@ static rb_status find_structure(prover *p)
                 list[count++] = (keyed){hash_of_column(M, j), j};
             continue;
         }
+        /* Slack pairs: column j has this one entry. */
         const int i = M->i[M->p[j]];
         if (i == j || !(M->x[M->p[j]] > 0.0) || p->q[j] != 0.0 || p->reads[i] || p->taken[i] ||
             p->taken[j] || !is_plain(p, i) || !is_plain(p, j) || !reads_nothing(p, j, p->reads))
@@ -181,6 +183,7 @@ static const char *choose_basis(prover *p)
 {
     const int n = p->n;
     p->m = p->betas = 0;
+    /* What a slack pair takes is no part of the basis. */
     for (int i = 0; i < n; i++) {
         const int basic = p->taken[i] == FREE_BASIC || (!p->taken[i] && p->at[i] == LCP_BETWEEN);
         p->column[i] = p->row[i] = p->core[i] = p->single[i] = -1;
@@ -203,6 +206,7 @@ static const char *choose_basis(prover *p)
         if (p->taken[i] == FREE_TWIN && !are_opposite(p, i, p->partner[i], p->reads, 0))
             return "dependent pairs";
     }
+    /* Rows of the basis: those of its columns, unless the row is exactly zero anyway. */
     int m = 0;
     for (int c = 0; c < p->m; c++)
         if (!p->zero[p->C[c]]) {
@@ -280,6 +284,8 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
         p->core[c] = p->core[c] > 0 ? k++ : -1;
     if (k > MOST_CORE)
         return "too many unknowns for a dense matrix";
+    /* The core: rows and columns without a single entry of their own, solved by an inverse with
+     * bounds; the rest follows by substitution. */
     int *of_row = p->key;
     for (int r = 0; r < m; r++)
         of_row[r] = p->single[r] < 0 ? rows++ : -1;
@@ -300,8 +306,10 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
     *norm = inverse.norm;
     if (!why && !(inverse.norm < 0.99))
         why = "the matrix of the basis is not proved to be regular";
+    /* rhs 0: the values at bounds; rhs b: column b of the undecided pairs. */
     for (int rhs = 0; !why && rhs <= p->betas; rhs++) {
         double *X = p->X + (size_t)rhs * (size_t)m, *EX = p->EX + (size_t)rhs * (size_t)m;
+        /* A regular system K x = -side, of the core first. */
         double *side = p->Y + (size_t)rhs * (size_t)p->n; /* right-hand side, of all rows */
         memset(side, 0, (size_t)p->n * sizeof *side);
         if (rhs == 0)
@@ -320,6 +328,7 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
                 X[c] = x[p->core[c]];
                 EX[c] = e[p->core[c]];
             }
+        /* Then the columns with one entry, row by row. */
         for (int r = 0; r < m; r++) {
             const int c = p->single[r], i = p->E[r];
             if (c < 0)
@@ -332,6 +341,7 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
             EX[c] = proof_up(8, fabs(error / pivot) + 4.0 * PROOF_U * fabs(X[c])) + PROOF_TINY;
         }
     }
+    /* Y: w = M z + q of all rows, with bounds EY. */
     for (int rhs = 0; !why && rhs <= p->betas; rhs++)
         for (int i = 0; i < p->n; i++) {
             double *y = p->Y + (size_t)rhs * (size_t)p->n + i;
@@ -351,6 +361,8 @@ static rb_status bound_undecided(prover *p)
     const size_t order = (size_t)b;
     if (b == 0)
         return RB_OK;
+    /* <S>: the comparison matrix of S, |S_ii| on the diagonal and -|S_ij| beside it, each at the
+     * worst end of its bounds. */
     double *A = rb_alloc(order, order), *v = rb_alloc(order, 3), *least = v + order,
            *size = least + order;
     proof_inverse inverse = {0};
@@ -510,6 +522,8 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
     proof->margin = INFINITY;
     proof->row = -1;
     for (int i = 0; i < n; i++) {
+        /* An unknown of the basis lies between its bounds, any other w_i has the sign of its
+         * side. */
         const int c = p->column[i];
         const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
         of[i] = RIGHT;
@@ -545,6 +559,8 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
         const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
         if (of[i] != (wrong ? WRONG : OPEN))
             continue;
+        /* An exchange as in block pivoting: into the basis, or out of it to the bound that was
+         * passed. */
         if (wrong) {
             const int is_above = isinf(low) || (isfinite(high) && c >= 0 && p->X[c] > high);
             p->at[i] = c < 0 ? LCP_BETWEEN : is_above ? LCP_AT_UPPER : LCP_AT_LOWER;
@@ -577,6 +593,7 @@ static void write_proof(prover *p, const double *given, rb_lcp_proof *proof)
     for (int i = 0; i < p->n; i++) {
         const int j = p->partner[i];
         if (p->taken[i] == FREE_BASIC) {
+            /* z_j - z_i is what the proof knows; its sign says which of the two carries it. */
             if (proof->z[i] < 0.0) {
                 proof->z[j] = -proof->z[i];
                 proof->z[i] = 0.0;
@@ -709,6 +726,7 @@ rb_status rb_lcp_prove(const rb_lcp_mixed_problem *given, const double *z, rb_lc
         return RB_EINVAL;
     prover p = {.n = n, .q = given->q, .lower = given->lower, .upper = given->upper};
     rb_arena scratch = {0};
+    /* n each; X, EX, Y and EY grow with the undecided pairs. */
     p.at = rb_arena_zeros(&scratch, order, sizeof *p.at);
     int **ints[] = {&p.open, &p.reads, &p.taken, &p.partner, &p.column, &p.row,   &p.core,
                     &p.key,  &p.C,     &p.E,     &p.single,  &p.zero,   &p.strict};

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A confined case (a certificate's) reads only harmless files in its folder, and no message quotes
+ * their content. */
 void rb_case_confine(rb_case *c, const char *folder)
 {
     c->confined = 1;
@@ -38,6 +40,7 @@ static void fill_apart(char *text)
         memcpy(at, "0  ", 3);
 }
 
+/* Text or spreadsheet, in whatever form; the table owns its numbers. */
 static rb_status read_table(const rb_case *c, const char *path, int is_history, rb_io_table *t,
                             rb_message *why)
 {
@@ -71,6 +74,7 @@ static void free_profile(case_profile *p)
     *p = (case_profile){.curve = NULL};
 }
 
+/* 1: the same file has been read in the same units, so that its numbers are kept. */
 static int is_read(const case_table *t, const char *path, rb_units units)
 {
     return t->path && strcmp(t->path, path) == 0 && t->units == units;
@@ -99,6 +103,7 @@ static const rb_io_column over_x[CASE_TABLES][2] = {
     [CASE_FRICTION] =
         OF_X("mu", "friction|friction coefficient|coefficient of friction|cof|f", "-")};
 
+/* over borrows the numbers of the table, which is read only where it has changed. */
 static rb_status read_over_x(const rb_case *c, case_table *t, const char *path, rb_units units,
                              rb_rolling_table *over, rb_message *why)
 {
@@ -140,6 +145,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     rb_rolling_table gap;
     if (resolved->rc.gap != RB_GAP_TABLE)
         return rb_case_refuse_given(c, "gap-smoothing", "it needs a gap from a file", why);
+    /* The spline depends on the points, on their noise and on whether the table is a punch. */
     if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise ||
         c->profile.is_punch != is_punch)
         free_profile(&c->profile);
@@ -232,6 +238,7 @@ static rb_status read_program_table(const rb_case *c, case_table *t, const char 
         return rb_case_without_content(c, path, s, why);
     }
     *t = (case_table){.table = *table, .path = path, .units = units, .program = {.n = table->rows}};
+    /* Each column goes to its member of the program; NULL where the table has none. */
     for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++)
         memcpy((char *)&t->program + rb_rolling_program_columns[k].column, &x[k], sizeof x[k]);
     /* The creepage of states is the mean of the step that ends there; none is of those at rest. */
@@ -329,6 +336,8 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
 
 /* ---- Layers ------------------------------------------------------------------------ */
 
+/* Layers from the surface down: thickness, E and nu of each, checked one by one, because a table
+ * names no options. */
 static rb_status read_stack(const rb_case *c, case_table *t, const char *path, rb_units units,
                             rb_message *why)
 {

@@ -110,6 +110,7 @@ static void conductor_row(const conductor *c, int i, double *row)
                (size_t)c->n * sizeof *row);
         return;
     }
+    /* The response of an element is the difference of the primitive at its ends. */
     double before = rise_from_origin(&c->body, c->speed, c->x[0] - 0.5 * c->all[0] - c->x[i]);
     for (int j = 0; j < c->n; j++) {
         const double to = rise_from_origin(&c->body, c->speed, c->x[j] + 0.5 * c->all[j] - c->x[i]);
@@ -157,6 +158,7 @@ static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat 
         c->rows = rows;
         return rows || n == 0 || n > ROWS ? RB_OK : RB_ENOMEM;
     }
+    /* Equal elements: the response depends on the distance alone, 1 - n ... n - 1 elements. */
     c->response = rb_alloc(2 * (size_t)n - 1, 1);
     double before = rise_from_origin(body, speed, s->h[0] * (0.5 - n));
     for (int k = 1 - n; c->response && k < n; k++) {
@@ -186,6 +188,7 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
         return RB_ENOMEM;
     if (c->by) {
         rb_bem_convolution_apply(c->by, heat, temperature);
+        /* Far ahead of the heat the rise is zero, and transforms leave rounding there. */
         const double rounding = 8.0 * DBL_EPSILON * rb_norm_inf((size_t)n, temperature);
         for (int i = 0; i < n; i++)
             temperature[i] =

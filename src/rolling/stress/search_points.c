@@ -24,6 +24,8 @@ void rb_search_xy(const rb_search *f, const rb_search_strip *in, double s, doubl
         xy[1] = in->top > 0.0 ? fmax(depth, nextafter(in->top, INFINITY)) : depth;
         return;
     }
+    /* s is measured along the circle, depth towards its centre; the second term of y without
+     * cancellation (B9). */
     const double angle = s / f->radius;
     xy[0] = (f->radius - depth) * sin(angle);
     xy[1] = depth * cos(angle) + 2.0 * f->radius * gsl_pow_2(sin(0.5 * angle));
@@ -85,11 +87,13 @@ static rb_status set_candidates(rb_search *f, rb_arena *memory)
     int m = 0;
     for (int k = 0; k < n; k++) {
         const double here = along_surface(f, x[k]), last = m ? s[m - 1] : here;
+        /* At least the middle between two nodes, more where they are far apart. */
         const int parts = k ? (int)fmax(2.0, ceil((here - last) / widest)) : 1;
         for (int i = 1; i < parts; i++)
             s[m++] = last + (here - last) * i / parts;
         s[m++] = here;
     }
+    /* Outwards on both sides, each step longer than the one before. */
     double step = widest, away = 0.0;
     for (int k = 0; k < STEPS && away < most; k++) {
         away = fmin(away + step, most);
@@ -298,6 +302,7 @@ static rb_status leave_out_ends(rb_search *f, rb_arena *memory)
     return s;
 }
 
+/* The stress at all points, row by row. */
 static rb_status compute_stress(rb_search *f, rb_message *why)
 {
     rb_arena scratch = {0};

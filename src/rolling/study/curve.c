@@ -213,6 +213,25 @@ static rb_status record_unsolved(const rb_rolling_model *model, const rb_rolling
     return c->kappa && model->state.p ? rb_rolling_law_kappa(model, &c->kappa[k]) : RB_OK;
 }
 
+/* Records a point with the status s, or keeps the place of one without a solution.  first: the
+ * first status of these.  Returns RB_OK where the curve goes on. */
+static rb_status end_point(const rb_rolling_model *model, const watcher *w,
+                           const rb_rolling_range *r, double value, rb_status s,
+                           const rb_message *reason, rb_status *first, rb_rolling_curve *c,
+                           rb_message *why)
+{
+    if (s != RB_OK && *first == RB_OK && why)
+        *why = *reason;
+    if (is_unsolved(s)) {
+        *first = *first == RB_OK ? s : *first;
+        return record_unsolved(model, r, value, s, c, why);
+    }
+    if (s < 0 || !model->state.p)
+        return s;
+    const rb_status t = record_point(model, w, c, why);
+    return t < 0 ? t : s;
+}
+
 /* A fitted mesh whose contact has moved is fitted again, with the zones of the state; after
  * RB_ZONE, a potential contact that is full, the whole search for the contact begins again.  edge:
  * of the contact for which the mesh was made, set anew. */
@@ -281,15 +300,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         }
         if (is_made)
             s = follow_contact(&steady, s, edge, model, &reason);
-        if (s != RB_OK && first == RB_OK && why)
-            *why = reason;
-        if (is_unsolved(s)) {
-            first = first == RB_OK ? s : first;
-            s = record_unsolved(model, r, value, s, c, why);
-        } else if (s >= 0 && model->state.p) {
-            const rb_status t = record_point(model, w, c, why);
-            s = t < 0 ? t : s;
-        }
+        s = end_point(model, w, r, value, s, &reason, &first, c, why);
     }
     model->plan.start = NULL;
     free(start.scratch);
@@ -314,19 +325,12 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
         rb_rolling_model_free(model);
         s = rb_rolling_model_create(&steady, model, &reason);
         model->iterations += iterations;
-        if (s != RB_OK && first == RB_OK && why)
-            *why = reason;
-        if (is_unsolved(s)) {
-            first = first == RB_OK ? s : first;
-            s = record_unsolved(model, r, steady.speed, s, c, why);
-        } else if (s >= 0 && model->state.p) {
-            const rb_status t = record_point(model, w, c, why);
-            s = t < 0 ? t : s;
-        }
+        s = end_point(model, w, r, steady.speed, s, &reason, &first, c, why);
     }
     return s == RB_OK ? first : s;
 }
 
+/* What a curve over this variable needs, before its first point is solved. */
 static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r, rb_message *why)
 {
     if (!isfinite(r->from) || !isfinite(r->to))
@@ -375,6 +379,7 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_r
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
+    /* Two rows per creepage where it is followed there and back. */
     const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady, 0,
