@@ -12,7 +12,12 @@ static const double STEEP = 0.45;
 double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
                                 const rb_contact_state *state, int j, int side)
 {
-    const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[j - side] == state->zone[j];
+    const int inner = j - side, n = state->n,
+              slides = rb_rolling_is_at_bound(n, state->zone, state->p, state->q, j) &&
+                       rb_rolling_is_at_bound(n, state->zone, state->p, state->q, inner) &&
+                       (state->zone[j] == state->zone[inner] || state->zone[j] == RB_ZONE_STICK ||
+                        state->zone[inner] == RB_ZONE_STICK) &&
+                       state->q[inner] * state->q[j] > 0.0;
     const double beta = rb_rolling_derive(rc).dundurs;
 
     return rb_rolling_interlayer_is_soft(rc, length) ? 1.0

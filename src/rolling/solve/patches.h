@@ -20,6 +20,20 @@ static inline int rb_rolling_interlayer_is_soft(const rb_rolling_case *rc, doubl
     return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * length;
 }
 
+/* Of n tractions in their zones: 1 where A slides in element i, or sticks with all of its friction,
+ * as in rows that repeat the one before, where rounding decides which.  Friction at its bound is
+ * the same part of the pressure in one of its neighbours, too. */
+static inline int rb_rolling_is_at_bound(int n, const int *zone, const double *p, const double *q,
+                                         int i)
+{
+    int is_same = zone[i] > RB_ZONE_STICK;
+
+    for (int j = i - 1; j <= i + 1; j += 2)
+        is_same |= j >= 0 && j < n && zone[i] == RB_ZONE_STICK && zone[j] >= RB_ZONE_STICK &&
+                   q[i] != 0.0 && fabs(q[j] * p[i] - q[i] * p[j]) <= 1e-9 * fabs(q[i] * p[j]);
+    return is_same;
+}
+
 /* (E1) The power of the distance from the edge on that side (-1 left, +1 right) with which
  * the pressure starts there.  Where A slides with q = -+mu p up to the edge, it is
  * 1/2 + side atan(beta q/p)/pi; without friction, without coupling and in stick 1/2; on a

@@ -17,15 +17,21 @@ enum { TRUSTED = 3, LONG = 20 };
  * then, and the parabola of a part of the zone says nothing of the other one. */
 static const double SMOOTH = 0.018;
 
+static int slides(const rb_rolling_tractions *of, int i)
+{
+    return rb_rolling_is_at_bound(of->n, of->zone, of->p, of->q, i);
+}
+
 int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tractions *of, int last,
                               int side, rb_rolling_stick_limit *limit)
 {
     const int slips = last + side;
     int stuck = 0;
 
-    if (slips < 0 || slips >= of->n || of->zone[slips] <= RB_ZONE_STICK)
+    if (slips < 0 || slips >= of->n || !slides(of, slips))
         return 0;
-    for (int i = last; i >= 0 && i < of->n && of->zone[i] == RB_ZONE_STICK && stuck < LONG;
+    for (int i = last;
+         i >= 0 && i < of->n && of->zone[i] == RB_ZONE_STICK && !slides(of, i) && stuck < LONG;
          i -= side)
         stuck++;
     if (stuck < RB_ROLLING_LIMIT_LEAST)
