@@ -579,30 +579,35 @@ TEST(terminals_get_short_help)
 }
 
 /* Who waits is told after two seconds what for; the line is taken away, and neither
- * --quiet nor a pipe has one.  The program is stopped most of these seconds, for it is they
- * that count and not its work; a processor may still be too fast for it. */
+ * --quiet nor a pipe has one.  The program is stopped as soon as it listens to its timer, until the
+ * timer has gone off: it is seconds that count, not work. */
 TEST(waiting_is_told_on_a_terminal)
 {
+#define ALARM ".*[2367abef][0-9a-f]\\{3\\}$' /proc/$p/status" /* bit 13 of a mask of signals */
     static const char slowly[] =
         "\"$R\" stress --support hub --half-width 1 --grid 120x120 --output /dev/null$quiet & "
-        "p=$!; "
-        "for k in 1 2 3 4 5 6; do kill -STOP $p; sleep 0.4; kill -CONT $p; sleep 0.03; done; "
-        "grep -q 'State:.[RSD]' /proc/$p/status && : >waits$quiet; wait $p";
+        "p=$!; exec 2>/dev/null; "
+        "until ! grep -q '^State:.[^Z]' /proc/$p/status; do "
+        "if grep -q '^SigCgt:" ALARM "; then : >\"listens$quiet\"; kill -STOP $p; "
+        "for k in $(seq 200); do grep -q '^ShdPnd:" ALARM " && break; sleep 0.05; done; "
+        "kill -CONT $p; break; fi; done; "
+        "wait $p";
     if (shell("command -v script") != 0)
         skip();
     write_file("slowly", slowly);
     assert_int_equal(shell("export R; quiet= script -qec '. ./slowly' told & "
                            "quiet=' --quiet' script -qec '. ./slowly' not-told; wait $!"),
                      0);
+    assert_int_equal(access("listens", F_OK), 0);
     slurp("told", out, sizeof out);
-    const char *told = strstr(out, " s: ");
-    assert_true(told || access("waits", F_OK) != 0);
-    if (told)
-        assert_non_null(strstr(told, "\r\033[K"));
+    const char *told = NOT_NULL(strstr(out, " s: "));
+    assert_non_null(strstr(told, "\r\033[K"));
+    assert_int_not_equal(access("listens --quiet", F_OK), 0);
     slurp("not-told", out, sizeof out);
     assert_null(strstr(out, " s: "));
     assert_int_equal(shell("\"$R\" --half-width 0.1"), 0);
     assert_null(strstr(err, "processor"));
+#undef ALARM
 }
 
 /* Characters, not bytes, and none of the sequences that set a colour. */
