@@ -469,6 +469,28 @@ TEST(rows_that_repeat_one_keep_its_results)
     }
 }
 
+/* A rigid plane is pressed on and nothing is held: a range of shifts gives the same tractions.  Its
+ * middle is 0 there, and is mirrored with the force that follows; an end of it is neither. */
+TEST(shifts_that_are_not_unique_have_a_mirror)
+{
+    static const double load[3] = {100.0, 100.0, 90.0};
+    const rb_rolling_case rc = rolling_case(
+        "support halfplane radius 50 young 94500 poisson 0.1 mu 0.01 contact-elements 40 "
+        "increments 1");
+    double shift[2][3];
+    for (int k = 0; k < 2; k++) {
+        const double force[3] = {0.0, k ? -0.4 : 0.4, k ? 0.6 : -0.6};
+        const rb_rolling_program program = {.n = 3, .load = load, .force = force};
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
+        run(&rc, &program, &model, &h);
+        memcpy(shift[k], h.shift, sizeof shift[k]);
+        CHECK_ABS(h.shift[0], 0.0, 1e-9 * fabs(h.shift[1]), "middle of the range");
+    }
+    for (int row = 1; row < 3; row++)
+        CHECK_REL(shift[1][row], -shift[0][row], 1e-7, "row %d", row + 1);
+}
+
 /* ---- Memory ------------------------------------------------------------------------ */
 
 TEST(every_failing_allocation_is_noticed)

@@ -305,6 +305,17 @@ static rb_status prove_unique(const rb_contact_problem *p, int force_given, rb_c
     return rb_arena_done(&scratch, s);
 }
 
+/* Whether a given force does not tell the motion: all that friction can carry, or no element that
+ * sticks. */
+static int force_tells_no_motion(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    int stick = 0;
+
+    for (int i = 0; i < p->n; i++)
+        stick += state->zone[i] == RB_ZONE_STICK;
+    return rb_contact_slides_fully(p) || (p->force_given && !p->yield && stick == 0);
+}
+
 rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_state *state,
                            rb_contact_proof *proof, rb_message *why)
 {
@@ -332,8 +343,8 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
         s = form_matrices(problem, &F, &formed);
         p.op = formed;
     }
-    /* Under all that friction can carry every larger creepage will do: it is taken as given. */
-    if (rb_contact_slides_fully(problem)) {
+    /* Where a range of creepages will do it is taken as given. */
+    if (force_tells_no_motion(problem, state)) {
         p.force_given = 0;
         p.xi = state->xi;
     }

@@ -6,6 +6,7 @@
 #include "rolling/solve/formulation.h"
 #include "rolling/solve/kinematic.h"
 #include "rolling/solve/model.h"
+#include "rolling/solve/zone.h"
 
 #include <float.h>
 #include <math.h>
@@ -302,5 +303,5 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
                 "mu beta = %.3g: from 1 on Newton's method may fail on many elements, as it did on "
                 "%d; give at most %d --contact-elements, or --solver lemke",
                 coupling, problem->n, RB_ROLLING_STRONG_ADVISED_UP_TO);
-    return s;
+    return s == RB_OK ? rb_rolling_take_middle(rc, problem, state) : s;
 }

@@ -61,5 +61,10 @@ int rb_rolling_count_at_bound(const rb_rolling_case *rc, int n, const int *zone,
                               const double *q, const double *mu, double one);
 /* 1: some of n elements slip or yield with q < 0 and others with q > 0. */
 int rb_rolling_slips_both_ways(int n, const int *zone);
+/* Where a given force does not tell the motion of a solved state, because nothing is held and
+ * elements slide towards both sides: the middle of its range, which mirrored cases share.  Not with
+ * a third body that yields, nor with coefficients that follow the slip.  RB_ENOMEM. */
+rb_status rb_rolling_take_middle(const rb_rolling_case *rc, const rb_contact_problem *problem,
+                                 rb_contact_state *state);
 
 #endif
