@@ -939,10 +939,19 @@ TEST(results_with_error_bars_are_checked_on_their_mesh)
         "0.3 --mu 0.4 --accuracy 2e-2",
         "--support halfplane --similar --half-width 1 --contact-elements 20 --error",
         "--support hub --load 100 --formulation steady --force-ratio 0.3 --contact-elements 20 "
-        "--accuracy 3e-2"};
+        "--accuracy 3e-2",
+        /* a thin rim, the boundary of which becomes twice as fine */
+        "--support hub --hub-ratio 0.9 --young 1000 --poisson 0.5 --half-width 2.5 --mesh fitted "
+        "--contact-elements 24 --mu 0.3 --formulation steady --creep-ratio 0.4 --accuracy 1.5e-2"};
     static const struct {
         const char *path, *value, *part;
-    } changed[] = {{"summary/errors/max_pressure", "-1", "errors: max_pressure is printed as -1"},
+    } of_mesh[] = {{"summary/free_creepage", "0.01", "summary.free_creepage: printed 0.01"},
+                   {"summary/accuracy_elements", "19", "accuracy_elements: expected 20 to"},
+                   {"summary/accuracy_elements", "20", "and inputs have 20"},
+                   {"summary/accuracy_elements", "", "accuracy_elements: expected 20 to"},
+                   {"summary/accuracy_boundary", "1", "accuracy_boundary is no result"},
+                   {"summary/accuracy_boundary", "0.5", "accuracy_boundary: expected 1 to 32"}},
+      changed[] = {{"summary/errors/max_pressure", "-1", "errors: max_pressure is printed as -1"},
                    {"summary/errors/half_width", "", "summary.errors.half_width is missing"},
                    {"summary/errors/mu", "1", "summary.errors.mu is no result of this case"},
                    {"summary/errors/approach", "\"x\"", "summary.errors.approach: printed"},
@@ -955,7 +964,13 @@ TEST(results_with_error_bars_are_checked_on_their_mesh)
                              0);
             assert_int_equal(strstr(out, "; error bars are taken as stated") != NULL, json);
         }
-    held_json *root = run_json(bars[3]);
+    held_json *root = run_json(bars[2]);
+    for (size_t k = 0; k < sizeof of_mesh / sizeof *of_mesh; k++) {
+        const char *said = said_of(root, of_mesh[k].path, of_mesh[k].value);
+        if (!strstr(said, of_mesh[k].part))
+            fail_msg("%s: '%s' lacks '%s'", of_mesh[k].path, said, of_mesh[k].part);
+    }
+    root = run_json(bars[3]);
     for (size_t k = 0; k < sizeof changed / sizeof *changed; k++) {
         const char *said = said_of(root, changed[k].path, changed[k].value);
         if (!strstr(said, changed[k].part))

@@ -76,7 +76,6 @@ typedef struct {
     int has_errors; /* 1: errors holds those of the solution; a history has errors of each
                        step */
     rb_rolling_errors errors;
-    int elements; /* number needed for the required accuracy; 0: none required */
     struct rb_rolling_study_notes *of_steps; /* notes on steps before the last; NULL: none; owned */
 } rb_case_result;
 

@@ -208,7 +208,9 @@ typedef struct {
                                  borrowed from the case */
     int large;                /* 1: solved with Fourier transforms; no matrix was formed */
     int boundary_elements;    /* of both bodies; 0: half-planes have none */
-    int hierarchical;         /* 1: a boundary element matrix was hierarchical */
+    double accuracy_elements, accuracy_boundary; /* contact_elements, outer_refinement by which
+                                 an accuracy came; NAN: of none, of half-planes */
+    int hierarchical;                            /* 1: a boundary element matrix was hierarchical */
     rb_contact_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,

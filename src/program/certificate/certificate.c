@@ -141,8 +141,12 @@ static rb_status restore_solutions(rb_certificate *c, const source *of, parts *p
     for (size_t k = 0; k < n && s == RB_OK; k++) {
         const json_t *one = json_array_get(list, k);
         const json_t *summary = json_object_get(one, "summary");
-        const rb_certificate_contact stored = {summary, json_object_get(one, "table"), NULL,
-                                               rb_certificate_member(summary, "residual")};
+        const rb_certificate_contact stored = {summary,
+                                               json_object_get(one, "table"),
+                                               NULL,
+                                               rb_certificate_member(summary, "residual"),
+                                               rb_certificate_member(summary, "accuracy_elements"),
+                                               rb_certificate_member(summary, "accuracy_boundary")};
         rb_case_result r = {0};
         snprintf(label, sizeof label, "solution %zu", k + 1);
         c->of = label;
@@ -240,8 +244,12 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
     const source *of = context;
     const json_t *root = of->root, *history = json_object_get(root, "history"),
                  *summary = json_object_get(root, "summary");
-    const rb_certificate_contact stored = {summary, json_object_get(root, "table"), history,
-                                           rb_certificate_member(summary, "residual")};
+    const rb_certificate_contact stored = {summary,
+                                           json_object_get(root, "table"),
+                                           history,
+                                           rb_certificate_member(summary, "residual"),
+                                           rb_certificate_member(summary, "accuracy_elements"),
+                                           rb_certificate_member(summary, "accuracy_boundary")};
     const int has_solutions = json_object_get(root, "solutions") != NULL;
     static const char *const of_stress[] = {"maxima", "grid", "points"};
     int has_stress = 0;

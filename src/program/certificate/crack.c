@@ -400,9 +400,12 @@ rb_status rb_certificate_restore_crack(rb_certificate *c, const json_t *root, rb
                   .crack = *rb_case_crack_of(words),
                   .r = r};
     const json_t *contact = json_object_get(root, "contact");
-    const rb_certificate_contact stored = {contact, json_object_get(root, "contact_table"),
+    const rb_certificate_contact stored = {contact,
+                                           json_object_get(root, "contact_table"),
                                            json_object_get(root, "history"),
-                                           rb_certificate_member(contact, "residual")};
+                                           rb_certificate_member(contact, "residual"),
+                                           NAN,
+                                           NAN};
     rb_status s = RB_OK;
 
     memset(r, 0, sizeof *r);

@@ -16,10 +16,10 @@ typedef struct {
     int quiet;       /* 1: violations are counted and not told */
     int judges;      /* 1: the laws are judged while the states are read */
     uint64_t moving; /* 0: numbers are taken as they are; otherwise each is moved by a rounding */
-    int refined;     /* 1: --accuracy has chosen the number of elements */
-    int proves;      /* 1: solutions are proved while they are judged */
-    int step;        /* of a sequence that is judged, from 1 on; 0: the result */
-    const char *of;  /* what is judged, before every violation, such as "solution 2: " */
+    rb_resolved_case of_mesh; /* the case on the elements that --accuracy has chosen */
+    int proves;               /* 1: solutions are proved while they are judged */
+    int step;                 /* of a sequence that is judged, from 1 on; 0: the result */
+    const char *of;           /* what is judged, before every violation, such as "solution 2: " */
     /* of the contact whose laws are judged */
     const rb_rolling_model *model;
     double tol;          /* of the scaled residual */
@@ -72,8 +72,9 @@ double rb_certificate_stored(rb_certificate *c, const json_t *object, const char
 typedef struct {
     const json_t *summary; /* NULL: of a table, which has none */
     const json_t *table;
-    const json_t *history; /* NULL: one step */
-    double residual;       /* that is printed for the last state */
+    const json_t *history;     /* NULL: one step */
+    double residual;           /* that is printed for the last state */
+    double elements, boundary; /* of --accuracy: accuracy_elements, accuracy_boundary */
 } rb_certificate_contact;
 
 /* The model of a contact with the state that is stored, its solution and its steps, of which all

@@ -171,7 +171,7 @@ static rb_status judge_hysteresis(rb_certificate *c, const rb_rolling_solution *
 }
 
 /* As many elements as the case asks for: equal ones in all, others across the contact.  Patches
- * that lie apart, as on layers, too, contacts that move, and an accuracy take more. */
+ * that lie apart, as on layers, and contacts that move take more. */
 static void judge_mesh(rb_certificate *c, const rb_rolling_solution *s)
 {
     enum { AT_EDGES = 2 }; /* an edge may lie on either side of an end */
@@ -180,9 +180,9 @@ static void judge_mesh(rb_certificate *c, const rb_rolling_solution *s)
                           ? rb_rolling_equal_elements_instead(rc->contact_elements)
                           : rc->contact_elements,
               equal = rc->mesh == RB_MESH_UNIFORM || c->model->equal_instead,
-              more = c->refined || rc->gap == RB_GAP_TABLE || rc->worn.n > 0 ||
-                     rb_rolling_has_steps(rc) || rc->a.layer > 0.0 || rc->b.layer > 0.0 ||
-                     rc->a.cover > 0.0 || rc->b.cover > 0.0;
+              more = rc->gap == RB_GAP_TABLE || rc->worn.n > 0 || rb_rolling_has_steps(rc) ||
+                     rc->a.layer > 0.0 || rc->b.layer > 0.0 || rc->a.cover > 0.0 ||
+                     rc->b.cover > 0.0;
 
     if (s->n < asked || (!more && (equal ? s->n > asked : s->contact > asked + AT_EDGES)))
         rb_certificate_violated(c, "table: %d elements, %d of them in contact, and inputs have %d",

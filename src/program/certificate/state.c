@@ -375,27 +375,50 @@ static void move_results(const rb_rolling_results *table, const rb_rolling_case 
     }
 }
 
+/* The case on the elements that --accuracy has ended with, which cannot be fewer than asked for nor
+ * more than the table has: *resolved, or the one that c keeps. */
+static rb_status take_mesh(rb_certificate *c, const rb_certificate_contact *stored, int n,
+                           const rb_resolved_case **resolved, rb_message *why)
+{
+    static const double FINEST = 32.0; /* boundary of a wheel */
+
+    if (!((*resolved)->accuracy > 0.0))
+        return RB_OK;
+    if (!(stored->elements >= (*resolved)->rc.contact_elements && stored->elements <= n &&
+          stored->elements == floor(stored->elements)))
+        return rb_fail(why, RB_EFORMAT, "%s: accuracy_elements: expected %d to %d, got %.9g",
+                       c->name, (*resolved)->rc.contact_elements, n, stored->elements);
+    if (!isnan(stored->boundary) && !(stored->boundary >= 1.0 && stored->boundary <= FINEST))
+        return rb_fail(why, RB_EFORMAT, "%s: accuracy_boundary: expected 1 to %g, got %.9g",
+                       c->name, FINEST, stored->boundary);
+    c->of_mesh = **resolved;
+    c->of_mesh.rc.contact_elements = (int)stored->elements;
+    c->of_mesh.rc.outer_refinement = isnan(stored->boundary) ? 0.0 : stored->boundary;
+    *resolved = &c->of_mesh;
+    return RB_OK;
+}
+
 rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *resolved,
                                  const rb_certificate_contact *stored, rb_case_result *r,
                                  rb_rolling_states *states, rb_message *why)
 {
     const int n = (int)json_array_size(json_object_get(stored->table, "x_mm"));
-    const rb_rolling_case *rc = &resolved->rc;
 
     if (n < 3)
         return rb_certificate_refuse(c, "its table has no elements", why);
-    c->refined = resolved->accuracy > 0.0;
     c->proves = c->judges && (c->found->prove || json_object_get(stored->summary, "proof"));
-    rb_status s = stored->history ? follow_steps(c, resolved, stored, n, r, states, why)
-                                  : restore_step(c, resolved, stored, n, r, why);
+    rb_status s = take_mesh(c, stored, n, &resolved, why);
+    const rb_rolling_case *rc = &resolved->rc;
+    if (s == RB_OK)
+        s = stored->history ? follow_steps(c, resolved, stored, n, r, states, why)
+                            : restore_step(c, resolved, stored, n, r, why);
     if (s == RB_OK)
         s = rb_rolling_model_solution(&r->model, &r->solution, why);
+    if (s == RB_OK && resolved->accuracy > 0.0)
+        rb_rolling_set_accuracy(rc, &r->solution);
     /* The creepage of free rolling is that of another solution, found as the solve has found it. */
-    if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY && c->refined)
-        /* on as many elements across its own contact as --accuracy has chosen */
-        r->solution.free_creepage = rb_certificate_member(stored->summary, "free_creepage");
-    else if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY &&
-             rb_rolling_largest_mu(rc) > 0.0 && n >= rc->contact_elements) {
+    if (s == RB_OK && stored->summary && rc->formulation == RB_STEADY &&
+        rb_rolling_largest_mu(rc) > 0.0 && n >= rc->contact_elements) {
         rb_message unsolved;
         double *creepage = &r->solution.free_creepage;
         const rb_status free_rolling = rb_rolling_free_creepage(&r->model, creepage, &unsolved);

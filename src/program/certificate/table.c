@@ -88,17 +88,17 @@ typedef struct {
     const json_t *tree;
     const rb_case *words;
     const char *command;
-    double residual; /* in the comments */
+    double residual, elements, boundary; /* in the comments */
 } source;
 
 static rb_status write_table(rb_certificate *c, void *context, json_t **again, rb_message *why)
 {
     const source *of = context;
     const rb_resolved_case *resolved = rb_case_resolved(of->words);
-    const rb_certificate_contact stored = {NULL, json_object_get(of->tree, "table"), NULL,
-                                           of->residual};
+    const rb_certificate_contact stored = {
+        NULL, json_object_get(of->tree, "table"), NULL, of->residual, of->elements, of->boundary};
     const int is_aligned = resolved->rc.mesh == RB_MESH_ALIGNED;
-    rb_case_result r = {.elements = 0};
+    rb_case_result r = {.has_errors = 0};
     rb_status s = rb_certificate_restore(c, resolved, &stored, &r, NULL, why);
 
     /* Equal elements that lie at the edges look like those that are used instead, of which a note
@@ -160,7 +160,11 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
         s = tree_of(name, text, &tree, &reason);
     if (s == RB_OK) {
         snprintf(command, sizeof command, "rollbem%s", line);
-        source from = {tree, words, command, residual};
+        source from = {tree, words, command, residual, NAN, NAN};
+        /* "# accuracy_elements 100, accuracy_boundary 1.5", the latter NaN without wheels */
+        const char *mesh = line_behind(text, "# accuracy_elements ");
+        if (mesh)
+            sscanf(mesh, "%lf, accuracy_boundary %lf", &from.elements, &from.boundary);
         s = rb_certificate_compare(&c, tree, write_table, &from, &reason);
     }
     free(line);

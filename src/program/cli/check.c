@@ -25,7 +25,7 @@ static const char about[] =
     "other solutions of --all-solutions, and where the mouth of a crack closes.\n"
     "A table of derivatives has no state and cannot be checked: take --json.\n"
     "Not checked: iterations, seconds, names of the processor's kernels, and what\n"
-    "takes other meshes: how large error bars are, and free_creepage of --accuracy.\n"
+    "takes other meshes: how large error bars are.\n"
     "Refused: histories without states; cracks without states, or growing; error\n"
     "bars of steps, stress and cracks; curves; units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"

@@ -287,6 +287,13 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fputc('\n', out);
     }
     write_elements(out, s, width);
+    if (!isnan(s->accuracy_elements)) {
+        fprintf(out, "  accuracy  with %.0f contact elements", s->accuracy_elements);
+        if (s->accuracy_boundary > 1.0)
+            fprintf(out, ", %.4g times the usual ones on the rest of the boundary",
+                    s->accuracy_boundary);
+        fputc('\n', out);
+    }
     /* What it ran on: where it was slow, this says why. */
     fprintf(out, "  computed  in %.3g s", s->seconds_total);
     if (s->boundary_elements > 0)

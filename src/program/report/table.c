@@ -17,6 +17,12 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
 
     rb_report_comment(&c, "%s, %s; residual %.3g", rb_case_word("formulation", (int)s->formulation),
                       rb_status_text(s->status), s->residual);
+    if (!isnan(s->accuracy_elements)) {
+        char boundary[RB_NUMBER_TEXT];
+        rb_report_comment(
+            &c, "accuracy_elements %.0f, accuracy_boundary %s", s->accuracy_elements,
+            isnan(s->accuracy_boundary) ? "NaN" : rb_number_text(s->accuracy_boundary, boundary));
+    }
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         rb_report_comment(&c, "patch %d: from %.9g to %.9g %s, p0 = %.9g %s, P = %.9g, Q = %.9g %s",
                           k + 1, s->patch[k].from, s->patch[k].to, rb_unit_name(s->units, "mm"),

@@ -64,9 +64,10 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step, 
         return rb_rolling_end_solve(&r->model, s, start, &r->solution, why);
     }
     r->has_errors = 1;
+    int elements;
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
-                                            &r->elements, why);
+                                            &elements, why);
     return rb_rolling_solve_with_errors(&c->rc, &r->solution, &r->errors, why);
 }
 

@@ -120,6 +120,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return rc->fretting;
     case RB_FOR_FRETTING_B:
         return rc->fretting && rc->elastic_b;
+    case RB_FOR_ACCURACY:
+        return 0;
     case RB_FOR_ALL:
         break;
     }

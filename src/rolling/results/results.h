@@ -36,6 +36,7 @@ typedef enum {
  * reports omit both. */
 typedef enum {
     RB_FOR_ALL,
+    RB_FOR_ACCURACY, /* solved to an accuracy, which the case does not know */
     RB_FOR_HEAT,
     RB_FOR_HEAT_INSIDE, /* heat of steady rolling */
     RB_FOR_WORN,

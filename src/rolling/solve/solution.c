@@ -328,7 +328,7 @@ static rb_status summarise_model(const rb_rolling_model *model, int with_product
         /* Forces by sums over the elements; the table of tractions, displacements, gap and slip. */
         s->formulation = model->rc->formulation;
         set_counts(model, s);
-        s->free_creepage = NAN;
+        s->free_creepage = s->accuracy_elements = s->accuracy_boundary = NAN;
         set_forces(model, s);
         set_tractions(model, s);
         if (with_products)

@@ -714,6 +714,13 @@ static int refined_elements(double accuracy, const estimate *first, const estima
     return rc->contact_elements > n || rc->outer_refinement > outer;
 }
 
+void rb_rolling_set_accuracy(const rb_rolling_case *refined, rb_rolling_solution *solution)
+{
+    solution->accuracy_elements = refined->contact_elements;
+    solution->accuracy_boundary =
+        rb_rolling_error_runs(refined) > 2 ? fmax(refined->outer_refinement, 1.0) : (double)NAN;
+}
+
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
                                        rb_rolling_solution *solution, rb_rolling_errors *errors,
                                        int *elements, rb_message *why)
@@ -747,6 +754,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         rb_rolling_solution_free(solution);
         *solution = finer;
         *elements = status >= 0 ? refined.contact_elements : 0;
+        rb_rolling_set_accuracy(&refined, solution);
         round++;
         if (status != RB_OK)
             return status;

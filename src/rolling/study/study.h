@@ -114,6 +114,8 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_sol
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
                                        rb_rolling_solution *solution, rb_rolling_errors *errors,
                                        int *elements, rb_message *why);
+/* Says in a solution which mesh of the case an accuracy has ended with. */
+void rb_rolling_set_accuracy(const rb_rolling_case *refined, rb_rolling_solution *solution);
 
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
  * MPa.  stress, stress_b: its maxima in all of A and of B if error bars for them are wanted,
