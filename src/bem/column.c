@@ -110,6 +110,8 @@ RB_INLINE void put_G(const rb_influence *v, rb_buffer buffer, int i)
     buffer[3][i + 1] = v->Gyy;
 }
 
+/* The distances of a block of points from the element (kernels.h), one array each, so that the loop
+ * is vectorised. */
 RB_INLINE void see_block(const rb_element *e, const double *x, const double *y, rb_seen_block *b)
 {
     const double length = e->a + e->a;
@@ -125,6 +127,7 @@ RB_INLINE void see_block(const rb_element *e, const double *x, const double *y, 
     }
 }
 
+/* ln W in two parts: exponent and the argument of the series, which G joins later. */
 RB_INLINE void split_log_block(rb_seen_block *b)
 {
     for (int i = 0; i < BLOCK; i++) {
@@ -133,6 +136,7 @@ RB_INLINE void split_log_block(rb_seen_block *b)
     }
 }
 
+/* Lam, Th and M of all points by the series for distant ones; near points are mended afterwards. */
 RB_INLINE void turn_far_block(double a, int terms, int with_G, rb_seen_block *b)
 {
     for (int i = 0; i < BLOCK; i++) {

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A with the contact's columns, and what condensing adds, of 2 n unknowns and 2 n_c loads. */
 static double dense_bytes(int n, int n_c)
 {
     const double dofs = 2.0 * n, loads = 2.0 * n_c;
@@ -101,6 +102,7 @@ static rb_status assemble(rb_bem_system *s)
             } else if (s->A) {
                 H[k] = rb_bem_system_column(s, 2 * j + k);
             }
+            /* The traction of a contact element is a load: its column of G is kept apart. */
             if (condition[k] == RB_BEM_CONTACT)
                 G[k] = s->Gc + (2 * (size_t)(j - mesh->contact_first) + (size_t)k) * (size_t)s->ld;
         }
@@ -143,6 +145,7 @@ rb_status rb_bem_system_factor(rb_bem_system *s, rb_message *why)
                 sum += fabs(column[i]);
             norm = fmax(norm, sum);
         }
+        /* LU with partial pivoting; large ones use all threads of BLAS. */
         double *work = rb_alloc((size_t)n, 4);
         lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
         rb_status status = RB_ENOMEM;
@@ -190,6 +193,7 @@ static rb_status make_system(const rb_bem_mesh *mesh, rb_bem_material material, 
     if (status == RB_OK) {
         char what[80];
 
+        /* Refused before anything is allocated, if the machine has not so much memory. */
         snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
         status = rb_memory_check(bytes_of(mesh, dense), what, why);
     }

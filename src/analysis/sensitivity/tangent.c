@@ -25,6 +25,8 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
 
     if (!scratch)
         return RB_ENOMEM;
+    /* d_N, d_T and given values moved along the rates; friction: what a change of mu adds in slip,
+     * which the operator turns into gaps and slips. */
     double *friction = scratch + 2 * n, *none = scratch + 3 * n, *gap = scratch + 4 * n;
     p.d_N = scratch;
     p.d_T = scratch + n;
@@ -80,6 +82,8 @@ static rb_status tangent_at_creepage(const rb_sensitivity *s, const rb_sensitivi
                                      rb_contact_state *y)
 {
     const rb_contact_state *x = &s->model->state;
+    /* A linear problem: the difference of two solutions over the way between them is exact for any
+     * way. */
     const double part = long_part(s, rate);
     const rb_status status = solve_moved(s, rate, part, y);
 
@@ -111,6 +115,8 @@ static rb_status tangent_by_products(const rb_sensitivity *s, const rb_sensitivi
     unit.tangential = -p->e_T[0] / p->slip_length;
     if (status == RB_OK)
         status = tangent_at_creepage(s, &unit, &by_xi);
+    /* The load changes xi by share, and xi the load by that of by_xi: the geometric series of
+     * both. */
     const double more =
         status == RB_OK ? share * rb_contact_load(p, y) / (1.0 - share * rb_contact_load(p, &by_xi))
                         : 0.0;
@@ -203,6 +209,8 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
         if (begins_to_rub(s, rate, i))
             zone[i] = RB_ZONE_STICK;
     for (; k <= most && moved && status == RB_OK; k++) {
+        /* The tangent for these zones, and whether each element at a border goes where its zone
+         * allows. */
         rb_sensitivity_factors *f;
         status = rb_sensitivity_factor(s, zone, NULL, &f);
         if (status == RB_OK)

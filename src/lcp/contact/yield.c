@@ -38,7 +38,7 @@ typedef struct {
     rb_arena memory;         /* of the arrays */
 } laws;
 
-/* Free k->memory in any case. */
+/* Free k->memory in any case. n: elements; the motion has four arrays of n in one block. */
 static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
 {
     const size_t n = (size_t)p->n;
@@ -66,6 +66,7 @@ static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
 
 /* ---- Laws and states --------------------------------------------------------------- */
 
+/* The sign of friction against a slip (K3). */
 static double against(double slip)
 {
     return slip > 0.0 ? -1.0 : 1.0;
@@ -98,6 +99,7 @@ static void inner_rows(const laws *k, const motion *m, int constants, double *y)
 {
     const rb_contact_problem *p = k->p;
     const double friction = rb_contact_friction_scale(p);
+    /* From upstream (+x) to downstream: u_i takes over from the two elements before it (Y1). */
     double next = 0.0, second = 0.0;
 
     for (int i = p->n - 1; i >= 0; i--) {
@@ -118,6 +120,7 @@ static void inner_rows(const laws *k, const motion *m, int constants, double *y)
     }
 }
 
+/* (K6): P over the given load less 1, Q less its given value over the largest force. */
 static void control_rows(const laws *k, const motion *m, int constants, double *y)
 {
     const rb_contact_problem *p = k->p;
@@ -158,6 +161,8 @@ static void add_borders(const laws *k, const double *border, motion *m)
     }
 }
 
+/* y = A x of the linear problem, by products; the bodies' displacements and the borders, without
+ * constants. */
 static void multiply(const void *of_laws, const double *x, double *y)
 {
     const laws *k = of_laws;
@@ -170,6 +175,7 @@ static void multiply(const void *of_laws, const double *x, double *y)
     control_rows(k, &m, 0, y + k->inner);
 }
 
+/* The control rows alone: what the tractions of x carry. */
 static void border_rows(const void *of_laws, const double *x, double *y)
 {
     const laws *k = of_laws;
@@ -179,6 +185,7 @@ static void border_rows(const void *of_laws, const double *x, double *y)
     control_rows(k, &m, 0, y);
 }
 
+/* Column delta or xi: the rows of the elements for a unit of it. */
 static void border_column(const void *of_laws, int column, double *y)
 {
     const laws *k = of_laws;
@@ -203,6 +210,7 @@ static void precondition(const void *of_laws, const double *b, double *x)
     double *line = k->scratch.p;
     const size_t bytes = (size_t)p->n * sizeof *line;
 
+    /* Pressures by an inverse of F_NN, then what sticks by one of A F_TT, then what yields. */
     memset(line, 0, bytes);
     for (int i = 0; i < p->n; i++)
         if (k->at_p[i] >= 0)
@@ -252,6 +260,8 @@ static rb_status solve_by_matrix(const laws *k, rb_arena *scratch, double *x)
             const double share = tangential ? 0.0 : friction_of(k, i);
             if (column < 0)
                 continue;
+            /* A unit of one unknown: the columns of F and S that belong to it; pressure of what
+             * slides brings its friction along. */
             (tangential ? m.q : m.p)[i] = p->stress;
             memset(m.gap, 0, 2 * bytes);
             cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
@@ -290,6 +300,7 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
 
     if (!start)
         return RB_ENOMEM;
+    /* GMRES begins with the tractions of the state, in the scales of the unknowns. */
     double *border = start + k->inner;
     for (int i = 0; i < p->n; i++) {
         if (k->at_p[i] >= 0)
@@ -314,6 +325,8 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
     motion m = k->scratch;
 
     zones_of_laws(k, state);
+    /* Numbers of the unknowns: pressures of all contacts, then the friction of what sticks or
+     * yields. */
     k->inner = 0;
     for (int i = 0; i < p->n; i++)
         k->at_p[i] = k->law[i] != SEPARATED ? k->inner++ : -1;
@@ -326,6 +339,7 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
 
     if (!x)
         return rb_arena_done(&scratch, RB_ENOMEM);
+    /* The right side: what the rows have without tractions, with the opposite sign. */
     memset(m.p, 0, 2 * (size_t)p->n * sizeof *m.p);
     for (int i = 0; i < p->n; i++) {
         m.gap[i] = p->d_N[i] - (p->load_given ? 0.0 : p->delta);
@@ -341,6 +355,7 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
         s = RB_SINGULAR;
     if (s != RB_OK)
         return rb_arena_done(&scratch, s);
+    /* Back to stresses and lengths; gaps and slips are computed again from the tractions. */
     const double *border = x + k->inner;
     set_tractions(k, x, &m);
     memcpy(state->p, m.p, (size_t)p->n * sizeof *m.p);
@@ -385,6 +400,8 @@ static law corrected(const laws *k, const rb_contact_state *state, int i, upstre
                      double *sign)
 {
     const rb_contact_problem *p = k->p;
+    /* What is wrong with a law shows in one sign: a gap below 0, friction above its bound, slip
+     * along the friction, a tension. */
     const double limit = p->bound[i] * fmax(state->p[i], 0.0), q = state->q[i],
                  slip = state->lambda[i];
     double u = p->recall[0] * up->next + p->recall[1] * up->second;
@@ -440,6 +457,7 @@ static rb_status iterate_laws(laws *k, rb_contact_state *state)
     int single = 0;
 
     for (int round = 0; round < ROUNDS + SINGLE_ROUNDS; round++) {
+        /* Laws that come again would come for ever: from then on one element at a time changes. */
         const size_t n = (size_t)k->p->n;
         const uint64_t now = rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law), k->sign,
                                      n * sizeof *k->sign);
@@ -497,6 +515,8 @@ static rb_status lower_yield_stress(rb_contact_problem *p, laws *k, double exces
         return RB_ENOMEM;
     memcpy(yield, p->yield, n * sizeof *yield);
     while (s == RB_OK && share > 0.0 && step > LEAST_STEP) {
+        /* A smaller yield stress; where no laws are found for it, back to the last good ones and
+         * half the step. */
         const double next = share > step ? share - step : 0.0;
         memcpy(good, k->law, n * sizeof *good);
         memcpy(sign, k->sign, n * sizeof *sign);

@@ -97,6 +97,8 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
                     RB_FRICTION_ALL_UP_TO);
     if (s != RB_OK)
         return s;
+    /* M and q (3 n_c) of the LCP of all contacts, whose blocks have the states as their choices of
+     * sides. */
     const int nc = p->contacts, n = SIZE * nc, m = 2 * nc;
     const size_t order = (size_t)n;
     rb_arena scratch = {0};
@@ -139,6 +141,7 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
         s = rb_lcp_try_all(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &choices, seconds, &found,
                            why);
     }
+    /* What has been found is handed over, also where time ran out. */
     const rb_status end = s;
     if (s >= 0) {
         all->contacts = nc;
@@ -154,6 +157,7 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
         s = states.status == RB_OK && all->r && all->u ? RB_OK : RB_ENOMEM;
     }
     for (int k = 0; s == RB_OK && k < found.count; k++) {
+        /* From z to reactions, and u = W r + q from them. */
         const double *z = found.z + (size_t)k * order;
         double *r = all->r + (size_t)k * (size_t)m, *u = all->u + (size_t)k * (size_t)m;
         for (int c = 0; c < nc; c++) {
@@ -182,6 +186,7 @@ static int stick(int d, int contacts, const double *W, const double *q, unsigned
 {
     enum { TURNS = 10 };
     const size_t m = (size_t)(d * contacts);
+    /* The rows and columns of W of the contacts that stick. */
     double *A = rb_arena_doubles(memory, m, m), *x = rb_arena_doubles(memory, m, 1);
     int *row = rb_arena_ints(memory, m), *pivot = rb_arena_ints(memory, m), n = 0;
     for (int i = 0; !memory->failed && i < d * contacts; i++) {
@@ -219,6 +224,7 @@ rb_status rb_friction_try_sticking(const rb_friction_problem *p,
                   : p->contacts > RB_FRICTION_ALL_UP_TO ? RB_EINVAL
                                                         : local_matrix(p, W, q, NULL);
     int found = 0;
+    /* Each set of sticking contacts: 2^n_c - 1 of them. */
     for (unsigned set = 1; s == RB_OK && !found && set < 1u << p->contacts; set++) {
         rb_arena own = {0};
         found = stick(p->dimension, p->contacts, W, q, set, &own, r) && accepts(context, r);

@@ -8,6 +8,8 @@
 
 /* ---- What methods on one problem share --------------------------------------------- */
 
+/* The scaled problem and its measure, which all methods of a portfolio share; the condensed form
+ * and the blocks are made when a method needs them. */
 rb_status rb_friction_shared_init(const rb_friction_problem *problem, rb_friction_shared *shared,
                                   rb_message *why)
 {
@@ -30,6 +32,7 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem, rb_frictio
     return s;
 }
 
+/* New mu, q or f: what depends on W, K and H alone is kept. */
 rb_status rb_friction_shared_reload(rb_friction_shared *shared)
 {
     const rb_friction_problem *p = shared->problem;
@@ -55,6 +58,7 @@ void rb_friction_shared_free(rb_friction_shared *shared)
     *shared = (rb_friction_shared){0};
 }
 
+/* The local form of a global problem, made once. */
 rb_status rb_friction_task_condense(rb_friction_task *task)
 {
     rb_friction_shared *shared = task->shared;
@@ -94,6 +98,7 @@ void rb_friction_info_clear(rb_friction_info *info, const char *solver)
     info->msg.text[0] = '\0';
 }
 
+/* The start of the caller in the scaled units, or zero. */
 void rb_friction_task_start(rb_friction_task *task)
 {
     const rb_friction_options *opt = &task->opt;
@@ -187,6 +192,7 @@ int rb_friction_prove(rb_friction_task *task)
 
 /* ---- Limits ------------------------------------------------------------------------ */
 
+/* How many iterations a method with a limit of its own may still make. */
 int rb_friction_task_left(const rb_friction_task *task, int own)
 {
     const int most = task->opt.max_iters;
@@ -212,6 +218,7 @@ double rb_friction_task_spent(const rb_friction_task *task)
     return task->info->flops + task->beside;
 }
 
+/* A step that would exceed the allowance is put off; the method then ends its turn. */
 int rb_friction_task_affords(rb_friction_task *task, double flops)
 {
     if (!(rb_friction_task_spent(task) + flops > task->budget))
@@ -243,6 +250,8 @@ rb_status rb_friction_task_assess(rb_friction_task *task)
     return s == RB_MAXITER && rb_friction_task_late(task) ? RB_INTERRUPTED : s;
 }
 
+/* At which change of the iterate the error is computed next: it is worth its cost when it may have
+ * become small enough. */
 double rb_friction_task_next_look(const rb_friction_task *task, double change, double error)
 {
     return fmin(0.5 * change, 0.9 * change * task->opt.tol / error);

@@ -101,7 +101,9 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rol
                                          int tail, rb_arena *memory, rb_rolling_memory_track *r,
                                          rb_message *why)
 {
-    /* The mesh with a tail of elements behind it, where particles are that have left it. */
+    /* The mesh with a tail of elements behind it, where particles are that have left it. traction:
+     * of both directions on all elements; force: P and Q of the last steps; scratch: four arrays of
+     * both directions. */
     const size_t all = (size_t)(mesh->n + tail);
     const rb_rolling_mesh longer = {.n = (int)all, .ends = rb_arena_doubles(memory, all + 2, 1)};
 
@@ -114,6 +116,7 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rol
                                    .scratch = rb_arena_doubles(memory, 2 * all + 2, 4)};
     rb_status s = memory->failed ? RB_ENOMEM : RB_OK;
     if (s == RB_OK) {
+        /* The tail lies behind the mesh, towards -x, in elements of the same length. */
         for (int i = 0; i < tail; i++)
             longer.ends[i] = mesh->ends[0] - (tail - i) * r->h;
         memcpy(longer.ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
@@ -141,6 +144,7 @@ size_t rb_rolling_memory_track_size(const rb_rolling_memory_track *r)
     return size;
 }
 
+/* The past of all bodies and the tractions, one after the other in `numbers`, there or back. */
 static void copy_past(const rb_rolling_memory_track *r, double *numbers, int back)
 {
     for (int b = 0; b <= r->bodies; b++) {
@@ -201,6 +205,8 @@ static void raise(const rb_rolling_memory_track *r, rb_rolling_relaxing *body, d
     }
 }
 
+/* Before a step: the past moves on with the material, fades over the step, and what it and the
+ * present tractions will have relaxed displaces the surfaces by w0 (V5, V6). */
 void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0)
 {
     const int all = r->all, m = r->n + 1;
@@ -243,6 +249,8 @@ static double work_of(const rb_rolling_relaxing *body, const double *x, const do
     return sum;
 }
 
+/* After a step with the tractions p and q: the past of each term, and what its dashpot has
+ * dissipated (V7). */
 void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
                                  const double *q)
 {
