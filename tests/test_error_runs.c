@@ -283,4 +283,33 @@ TEST(a_history_s_bars_are_of_its_coarser_histories)
     bars_of_a_history(1.6, 0);
 }
 
+/* Slip within the last element of the contact does work that elements which all stick do not show.
+ */
+TEST(work_of_slip_within_an_element_has_a_bar)
+{
+    rb_rolling_case rc = half_plane(RB_TRANSIENT, 60);
+    set(&rc, "gap parabola radius 100 mu 0.559 young 210000 poisson 0.193 similar load 50 "
+             "creep-ratio 0.338 distance 0.5 steps 30");
+    rb_rolling_case fine = rc;
+    rb_rolling_model model, fine_model;
+    rb_rolling_history own, truth;
+    int unseen = 0;
+
+    fine.contact_elements *= 4;
+    fine.steps *= 4;
+    CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &message));
+    CHECK_OK(rb_rolling_history_run(&fine, NULL, NULL, &fine_model, &truth, &message));
+    const int rest = own.n - rc.steps;
+    for (int i = rest; i < own.n; i++) {
+        const double work = truth.friction_work[truth.n - fine.steps + 4 * (i - rest) + 3];
+        unseen += own.friction_work[i] == 0.0 && work > 0.0;
+        CHECK_ABS(own.friction_work[i], work, own.errors->friction_work[i], "step %d", i);
+    }
+    assert_true(unseen > 0);
+    rb_rolling_history_free(&own);
+    rb_rolling_history_free(&truth);
+    rb_rolling_model_free(&model);
+    rb_rolling_model_free(&fine_model);
+}
+
 RUN_TESTS(NULL, NULL)

@@ -179,13 +179,21 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
         if (mu > 0.0)
             errors->force_ratio[i] += mu / rb_rolling_largest_mu(rc);
     }
-    /* Slip over less than an element of each rolled step. */
-    for (int i = steps_at_rest(own); i < own->n; i++) {
-        const int contact = own->stick[i] + own->slipping[i];
-        if (contact > 0)
-            errors->dissipation[i] += rb_rolling_edge_power(
-                rc, own->normal_load[i], own->creepage[i],
-                0.5 * (own->contact_to[i] - own->contact_from[i]), 1.0 / contact);
+    /* Slip over less than an element of each step, and what its work comes to. */
+    double work = 0.0;
+    for (int i = 0; i < own->n && s == RB_OK; i++) {
+        const int contact = own->stick[i] + own->slipping[i], rests = i < steps_at_rest(own);
+        const double a = 0.5 * (own->contact_to[i] - own->contact_from[i]);
+        if (!(contact > 0 && a > 0.0))
+            continue;
+        const double before = i > 0 ? own->shift[i - 1] : 0.0;
+        const double slip = rests ? (own->shift[i] - before) / a : own->creepage[i];
+        const double power = rb_rolling_edge_power(rc, own->normal_load[i], slip, a, 1.0 / contact);
+        const double rolled = i > 0 ? own->distance[i] - own->distance[i - 1] : own->distance[i];
+        if (!rests)
+            errors->dissipation[i] += power;
+        work += power * (rests ? a : rolled * own->half_width);
+        errors->friction_work[i] += work;
     }
     for (int k = 0; k < columns->n && s == RB_OK; k++)
         if (columns->row[k].error_bar && rb_rolling_has_column(&columns->row[k], errors))
