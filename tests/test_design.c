@@ -45,6 +45,11 @@ TEST(contacts_of_hertz)
     CHECK_REL(bound.variable[0].value, 200.0, 1e-6, "the bound holds it");
     CHECK_REL(bound.value, p0 * sqrt(50.0 / 200.0), 1e-6, "p0 by R");
 
+    /* differences stay where the input may be, far below the width of its bounds */
+    OWNED(rb_design) light = {.n = 0};
+    CHECK_OK(design(c, "max_pressure", "load=0.1:9000", NULL, &light, &message));
+    CHECK_REL(light.value, p0 * sqrt(0.1 / 500.0), 1e-6, "p0 by P");
+
     OWNED(rb_design) wide = {.n = 0};
     CHECK_OK(design(c, "max_pressure", "radius=20:200", "half_width<=1.2", &wide, &message));
     CHECK_REL(wide.variable[0].value, 50.0 * (1.2 / a) * (1.2 / a), 1e-5, "a by R");
