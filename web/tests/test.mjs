@@ -175,7 +175,7 @@ function compare(given, tol, files = {}) {
 
 /* A fitted mesh is fitted until the edges move less than a bound: its ends carry that. */
 const FITTED = 1e-6;
-for (const folder of readdirSync("examples"))
+for (const { name: folder } of readdirSync("examples", { withFileTypes: true }).filter((e) => e.isDirectory()))
     for (const file of readdirSync(`examples/${folder}`, { recursive: true }).filter((f) => f.endsWith(".ini"))) {
         const given = given_of(`examples/${folder}/${file}`),
             named = ["history", "irregularity", "accuracy", "error"].filter(

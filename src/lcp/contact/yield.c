@@ -533,6 +533,7 @@ static rb_status lower_yield_stress(rb_contact_problem *p, laws *k, double exces
             s = RB_OK;
         }
     }
+    /* without this the residual would refuse what stops halfway: rb_contact_proven */
     return s == RB_OK && share > 0.0 ? RB_MAXITER : s;
 }
 
