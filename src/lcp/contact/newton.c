@@ -82,14 +82,42 @@ static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
 
 typedef struct {
     double *gap;
-    int *zone, *best; /* corrected ones; those with the fewest corrections so far */
+    int *zone, *moves;         /* corrected ones; which of them only_grow keeps */
+    int *start, *best, *grown; /* the first ones; those with the fewest corrections so far, of all
+                                  elements and where zones only grow */
 } workspace;
 
+/* Whether element i changes with its neighbour j where zones only grow: an open element begins to
+ * touch beside a contact, one at an edge takes any zone, and others take the zone of j or the one
+ * that j changes to. */
+static int changes_with(const int *zone, const workspace *ws, int i, int j)
+{
+    const int wanted = ws->zone[i];
+
+    return wanted != zone[i] &&
+           (zone[i] == RB_ZONE_SEPARATED ? zone[j] != RB_ZONE_SEPARATED
+            : zone[j] == RB_ZONE_SEPARATED
+                ? 1
+                : zone[j] == wanted || (ws->moves[j] && ws->zone[j] == wanted));
+}
+
+/* Takes back the corrections of elements amid a zone, so that only its limits move. */
+static void only_grow(int n, const int *zone, workspace *ws)
+{
+    for (int i = 0; i < n; i++)
+        ws->moves[i] = i > 0 && changes_with(zone, ws, i, i - 1);
+    for (int i = n - 2; i >= 0; i--)
+        ws->moves[i] |= changes_with(zone, ws, i, i + 1);
+    for (int i = 0; i < n; i++)
+        if (!ws->moves[i])
+            ws->zone[i] = zone[i];
+}
+
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
- * back, which ends every cycle, or the corrections no longer become fewer, and no path
- * leads on. */
-static rb_status iterate_zones(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
-                               rb_contact_state *state)
+ * back, which ends every cycle, or the corrections no longer become fewer.  best: the zones with
+ * the fewest of them.  growing: corrections amid a zone wait. */
+static rb_status correct_zones(rb_contact_problem *p, rb_contact_unknowns unknowns, int growing,
+                               workspace *ws, int *best, rb_contact_state *state)
 {
     const size_t bytes = (size_t)p->n * sizeof(int);
     uint64_t hash[MAX_STEPS];
@@ -113,6 +141,8 @@ static rb_status iterate_zones(rb_contact_problem *p, rb_contact_unknowns unknow
 
         for (int i = 0; i < p->n; i++)
             ws->zone[i] = corrected_zone(p, unknowns, state, ws->gap, i);
+        if (growing)
+            only_grow(p->n, state->zone, ws);
         if (p->force_given && (unknowns & RB_TANGENTIAL))
             hold_one(p, state, ws->zone);
         for (int i = 0; i < p->n; i++)
@@ -122,22 +152,43 @@ static rb_status iterate_zones(rb_contact_problem *p, rb_contact_unknowns unknow
         waited = unknowns == RB_BOTH && changes >= least ? waited + 1 : 0;
         if (changes < least) {
             least = changes;
-            memcpy(ws->best, state->zone, bytes);
+            memcpy(best, state->zone, bytes);
         }
         memcpy(state->zone, ws->zone, bytes);
     }
-    /* After steps that went round in circles: from the nearest zones found the path leads
-     * on where both groups are unknown, unless the state of the last step lacks no more
-     * than rounding. */
+    return RB_MAXITER;
+}
+
+/* Where both groups are unknown and the steps go round in circles, a path leads on, unless the
+ * state of the last step lacks no more than rounding.  Between unlike bodies under large friction
+ * single elements amid a zone open or stick in the problem of the next step, so that zones scatter:
+ * from the start again only the limits of the zones move, and the path begins at the nearest zones
+ * found so; else at the nearest ones of all, or at the first. */
+static rb_status iterate_zones(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
+                               rb_contact_state *state)
+{
+    const size_t bytes = (size_t)p->n * sizeof(int);
     rb_contact_violation violation;
 
-    if (unknowns != RB_BOTH)
-        return RB_MAXITER;
-    const rb_status s = rb_contact_residual(p, state, &violation);
+    memcpy(ws->start, state->zone, bytes);
+    rb_status s = correct_zones(p, unknowns, 0, ws, ws->best, state);
+    if (s != RB_MAXITER || unknowns != RB_BOTH)
+        return s;
+    s = rb_contact_residual(p, state, &violation);
     if (s != RB_OK || violation.scaled <= p->rounding)
         return s == RB_OK ? RB_MAXITER : s;
-    memcpy(state->zone, ws->best, (size_t)p->n * sizeof(int));
-    return rb_contact_follow_path(p, state);
+    memcpy(state->zone, ws->start, bytes);
+    s = correct_zones(p, unknowns, 1, ws, ws->grown, state);
+    if (s == RB_MAXITER)
+        memcpy(state->zone, ws->grown, bytes);
+    if (s == RB_OK || s == RB_MAXITER)
+        s = rb_contact_follow_path(p, state);
+    const int *const others[] = {ws->best, ws->start};
+    for (int k = 0; k < 2 && s > 0 && rb_contact_has_steps_left(p, state); k++) {
+        memcpy(state->zone, others[k], bytes);
+        s = rb_contact_follow_path(p, state);
+    }
+    return s;
 }
 
 /* Normal problem with the friction held, tangential problem with the pressure held, in
@@ -177,11 +228,16 @@ static void forget_factors(const rb_contact_problem *p)
 
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state)
 {
-    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n), NULL};
+    workspace ws = {.gap = rb_alloc((size_t)problem->n, 1),
+                    .zone = rb_alloc_int(5 * (size_t)problem->n)};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK)
-        ws.best = ws.zone + problem->n;
+    if (s == RB_OK) {
+        ws.moves = ws.zone + problem->n;
+        ws.start = ws.moves + problem->n;
+        ws.best = ws.start + problem->n;
+        ws.grown = ws.best + problem->n;
+    }
     if (s == RB_OK && warm)
         s = from_zones(problem, &ws, state);
     else if (s == RB_OK) {

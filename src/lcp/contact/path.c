@@ -10,8 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Paths from zones that are nearly right take ten. */
-enum { MOST_BENDS = 40 };
+/* Paths from zones that are nearly right take ten, and where the limits of zones are far from
+ * theirs, up to one for every fourth element. */
+enum { BENDS = 40, ELEMENTS_PER_BEND = 4 };
+/* A path that has turned and gone so far seldom comes back: most of them end at infinity. */
+static const double FAR = 10.0;
 
 /* What an element's law wants to be positive: two numbers at most. */
 enum { MARGINS = 2 };
@@ -162,9 +165,9 @@ static rb_status follow_path(path *k)
         }
         s = solve_both(k);
     }
+    const int most = BENDS + k->problem->n / ELEMENTS_PER_BEND;
     for (int count = 0;
-         s == RB_OK && count < MOST_BENDS && rb_contact_has_steps_left(k->problem, k->state);
-         count++) {
+         s == RB_OK && count < most && rb_contact_has_steps_left(k->problem, k->state); count++) {
         bend at = {k->way * INFINITY, -1, 0};
 
         for (int i = 0; i < k->problem->n; i++) {
@@ -180,7 +183,7 @@ static rb_status follow_path(path *k)
         }
         if (k->way < 0.0 && at.t <= 0.0)
             return RB_OK;
-        if (at.element < 0)
+        if (at.element < 0 || at.t > FAR)
             return RB_RAY;
         const int begins = cross(k, &at);
         s = rb_interrupted() ? RB_INTERRUPTED : solve_both(k);

@@ -23,6 +23,12 @@ static const double AT_REST = 0.1, NEAR_REST = 3.0, TO_GO_ON = 1.0, TO_MATCH = 4
 /* Elements of a wheel outside the contact, as a part of those asked for, that its first far field
  * is found with: a sixth of the time. */
 static const double COARSE_BOUNDARY = 0.5;
+/* From this mu beta on Newton's steps come to rest only from edges that are known to a few of the
+ * outermost elements: the elements are halved as far as the second number, each size goes on from
+ * the one before, and the far field is matched on the first.  mu = 2 on a rigid half-plane, 400
+ * elements and error bars: 3 s without, .3 s so. */
+static const double STRONG = 0.4;
+enum { COARSEST_STRONG = 100 };
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
@@ -316,9 +322,12 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
     const int fine = rb_rolling_has_fine_boundary(&asked),
               has_far = rb_rolling_has_far_field(model->rc),
               by_far_field = has_far && asked.elements >= FIRST;
+    const int strong = rb_rolling_mu_beta(model->rc) >= STRONG;
     /* with a matrix half of the elements cost little */
     int halvings = asked.elements >= 2 * FIRST && asked.elements < RB_ROLLING_TRANSFORMS_FITTED;
 
+    while (strong && asked.elements >> halvings > COARSEST_STRONG)
+        halvings++;
     while (asked.elements > RB_ROLLING_FITTED_AT_ONCE &&
            asked.elements >> halvings > RB_ROLLING_COARSEST_FITTED)
         halvings++;
@@ -338,9 +347,14 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
         rb_rolling_coarsen_boundary(&model->plan);
     model->iterations = 0; /* those on fitted elements count */
     /* Many elements start from the edges and the zones of few. */
-    for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
+    for (int k = halvings; k > 0 && s == RB_OK; k -= strong ? 1 : 2) {
         model->plan.elements = asked.elements >> k;
         s = refit(model, 0.0, 0, TO_GO_ON, why);
+        if (s == RB_OK && strong && k == halvings && model->far) {
+            s = rb_rolling_far_field_match(model, model->far, why);
+            if (s == RB_OK)
+                s = refit(model, 0.0, 0, TO_GO_ON, why);
+        }
         model->iterations = 0;
     }
     model->plan.elements = asked.elements;

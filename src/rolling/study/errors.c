@@ -274,6 +274,22 @@ static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_ro
     return most;
 }
 
+/* What half the distance of two edges may be off by, where one is only known to lie between the
+ * midpoints of the last element in contact and the next one. */
+static double half_of_bounded_edges(const rb_rolling_solution *s)
+{
+    const rb_rolling_patch *const first = &s->patch[0], *const last = &s->patch[s->patches - 1];
+    int i = 0, j = s->n - 1;
+
+    while (s->zone[i] == RB_ZONE_SEPARATED)
+        i++;
+    while (s->zone[j] == RB_ZONE_SEPARATED)
+        j--;
+    const double before = i > 0 ? s->h[i - 1] : 0.0, after = j + 1 < s->n ? s->h[j + 1] : 0.0;
+    return 0.25 * ((first->bounded & RB_LEFT_BOUNDED ? before + s->h[i] : 0.0) +
+                   (last->bounded & RB_RIGHT_BOUNDED ? s->h[j] + after : 0.0));
+}
+
 /* What no mesh tells apart: rounding and the tolerance of the solver, in units of what
  * the scalar is made of; the length of an element, where it is the place where stick
  * begins; slip over an element; the friction of an element that may stick; the pressure
@@ -291,7 +307,8 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     double missed, missed_mu; /* of tables that are finer than the elements */
     if (rb_rolling_missed_by_elements(rc, &missed, &missed_mu) != RB_OK)
         return NAN;
-    const int force_given = rb_rolling_force_is_given(rc);
+    const int force_given = rb_rolling_force_is_given(rc),
+              fitted = rc->mesh == RB_MESH_FITTED && !s->equal_instead;
     const double friction =
         force_given ? 0.0
         : unresolved.pressure > 0.0
@@ -314,14 +331,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_CREEPAGE:
         return rounding * fmax(strain, fabs(s->creepage));
     case RB_SCALE_WIDTH:
-        /* found within an element where bodies relax and the pressure is no power there; equal
-         * elements show it to .02 to .15 of one, as it lies in one; friction between unlike bodies
-         * may lift an edge of a punch less than its first element is long */
+        /* found within an element where bodies relax and where the pressure is no power there,
+         * which is one of the shortest of fitted elements; equal ones show it to .02 to .15 of one,
+         * as it lies in one; friction between unlike bodies may lift an edge of a punch less than
+         * its first element is long */
         return rounding * a +
-               (rb_rolling_relaxes(rc) || s->edges_bounded ? 0.5
-                : rc->mesh == RB_MESH_UNIFORM              ? 0.1
-                                                           : 0.0) *
+               (rb_rolling_relaxes(rc) || (s->edges_bounded && !fitted) ? 0.5
+                : rc->mesh == RB_MESH_UNIFORM                           ? 0.1
+                                                                        : 0.0) *
                    rb_rolling_longest_element(s->n, s->zone, s->h) +
+               (s->edges_bounded && fitted ? half_of_bounded_edges(s) : 0.0) +
                (rc->mesh == RB_MESH_PUNCH && rb_rolling_couples(rc)
                     ? 0.5 * (s->h[0] + s->h[s->n - 1])
                     : 0.0);
