@@ -34,7 +34,7 @@ static inline void write_file(const char *name, const char *text)
 
 /* Splits a line into its words, in place, as a shell does; their number, or 0 where the line has
  * more of a shell's syntax than quotes around plain text. */
-static inline int plain_words(char *line, char **words, int most)
+static inline int plain_words(char *line, char **word, int most)
 {
     int count = 0;
     char *to = line, quote = 0;
@@ -46,7 +46,7 @@ static inline int plain_words(char *line, char **words, int most)
         if (!within && c && c != ' ') {
             if (count == most)
                 return 0;
-            words[count++] = to;
+            word[count++] = to;
             within = 1;
         }
         if (quote ? c == quote : c == '"' || c == '\'')
@@ -68,11 +68,11 @@ static inline int plain_words(char *line, char **words, int most)
 static inline int without_shell(const char *line)
 {
     extern char **environ;
-    char copy[3000], *words[200] = {program};
+    char copy[3000], *word[200] = {program};
     if (strncmp(line, "\"$R\" ", 5) != 0 || strlen(line) >= sizeof copy)
         return -1;
     strcpy(copy, line + 5);
-    const int count = plain_words(copy, words + 1, 198);
+    const int count = plain_words(copy, word + 1, 198);
     if (count == 0)
         return -1;
     posix_spawn_file_actions_t files;
@@ -81,7 +81,7 @@ static inline int without_shell(const char *line)
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, 1, "out", O_WRONLY | O_CREAT | O_TRUNC, 0666);
     posix_spawn_file_actions_addopen(&files, 2, "err", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    assert_int_equal(posix_spawn(&pid, program, &files, NULL, words, environ), 0);
+    assert_int_equal(posix_spawn(&pid, program, &files, NULL, word, environ), 0);
     posix_spawn_file_actions_destroy(&files);
     assert_int_equal(waitpid(pid, &status, 0), pid);
     return status;

@@ -28,7 +28,12 @@ static void set_peak(const rb_rolling_model *model, const rb_rolling_run *run,
 {
     const rb_contact_state *state = &model->state;
     const double *x = model->bodies.f.x, *p = state->p;
-    const rb_rolling_tractions of = {state->n, state->zone, x, p, state->q};
+    const rb_rolling_tractions of = {.n = state->n,
+                                     .has_history = model->rc->formulation != RB_STEADY,
+                                     .zone = state->zone,
+                                     .x = x,
+                                     .p = p,
+                                     .q = state->q};
     int k = -1;
 
     for (int i = run->first; i <= run->last; i++)

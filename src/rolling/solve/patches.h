@@ -86,7 +86,7 @@ double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh 
                                const double *p, int outer, int side);
 /* stick_limit.c: tractions of elements at x; n each. */
 typedef struct {
-    int n;
+    int n, has_history; /* 1: what slipped in an earlier step may stick now */
     const int *zone;
     const double *x, *p, *q;
 } rb_rolling_tractions;

@@ -11,8 +11,8 @@
  * enough, they begin with the fourth. */
 enum { TRUSTED = 3, LONG = 20 };
 
-/* By so much of its pressure the last element but one that sticks leaves the parabola of the
- * trusted ones at most (1.6 % on 20 to 60 elements, mu up to 5).  It leaves it further where
+/* Of steps: by so much of its pressure the last element but one that sticks leaves the parabola
+ * of the trusted ones at most (1.6 % on 20 to 60 elements, mu up to 5).  It leaves it further where
  * the zone has a kink of its own: what slipped before sticks with the friction and the slip of
  * then, and the parabola of a part of the zone says nothing of the other one. */
 static const double SMOOTH = 0.018;
@@ -65,7 +65,7 @@ int rb_rolling_stick_limit_of(const rb_rolling_case *rc, const rb_rolling_tracti
         return 0;
     const int inner = last - side;
     const double there = sqrt(fmax(rb_rolling_parabola_at(&of_p, side * (of->x[inner] - x)), 0.0));
-    if (!(fabs(of->p[from] * there - of->p[inner]) <= SMOOTH * of->p[inner]))
+    if (of->has_history && !(fabs(of->p[from] * there - of->p[inner]) <= SMOOTH * of->p[inner]))
         return 0;
     const double vertex = of_p.c < 0.0 ? -0.5 * of_p.b / of_p.c : end;
     const double highest = fmin(fmax(vertex, 0.0), end);

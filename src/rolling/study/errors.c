@@ -251,7 +251,12 @@ static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rollin
 static double pressure_at_limits_of_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     enum { SECOND = 2, LAST = 4 }; /* the first one errs by what it does not show beside it */
-    const rb_rolling_tractions of = {s->n, s->zone, s->x, s->p, s->q};
+    const rb_rolling_tractions of = {.n = s->n,
+                                     .has_history = rc->formulation != RB_STEADY,
+                                     .zone = s->zone,
+                                     .x = s->x,
+                                     .p = s->p,
+                                     .q = s->q};
     rb_rolling_stick_limit known;
     double most = 0.0;
 
