@@ -384,6 +384,8 @@ static rb_status take_mesh(rb_certificate *c, const rb_certificate_contact *stor
 
     if (!((*resolved)->accuracy > 0.0))
         return RB_OK;
+    if (isnan(stored->elements))
+        return rb_certificate_refuse(c, "summary.accuracy_elements is missing", why);
     if (!(stored->elements >= (*resolved)->rc.contact_elements && stored->elements <= n &&
           stored->elements == floor(stored->elements)))
         return rb_fail(why, RB_EFORMAT, "%s: accuracy_elements: expected %d to %d, got %.9g",
