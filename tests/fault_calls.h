@@ -11,11 +11,13 @@
 #include <string.h>
 #include <unwind.h>
 
-enum { CALLS = 1 << 16, STACKS = 1 << 16, WORDS = 128 };
+enum { CALLS = 1 << 16, STACKS = 1 << 16, WORDS = 128, KERNELS = 400 };
 
 static uintptr_t *calls;  /* CALLS, of the includer: return addresses, less the base */
 static uintptr_t *stacks; /* STACKS, of the includer: those that have been walked */
 static uintptr_t base, code_start, code_end;
+static uintptr_t kernel[KERNELS][2]; /* code of the program from ... to: fault_malloc.c */
+static int kernels;
 static unsigned call_parts = 1, call_part; /* which calls count */
 
 /* 1: the set has that key now and had not before.  A full set takes no more. */
@@ -42,10 +44,14 @@ static _Unwind_Reason_Code note_call(struct _Unwind_Context *context, void *foun
     return _URC_NO_REASON;
 }
 
-/* OpenBLAS' kernels for small matrices ask for memory and use it without a look. */
+/* OpenBLAS' kernels for small matrices ask for memory and use it without a look.  Those that are
+ * linked as an archive have no names at run time. */
 static int is_unchecked(const void *caller)
 {
     Dl_info info;
+    for (int k = 0; k < kernels; k++)
+        if ((uintptr_t)caller - base >= kernel[k][0] && (uintptr_t)caller - base < kernel[k][1])
+            return 1;
     return dladdr(caller, &info) && info.dli_sname && strstr(info.dli_sname, "small_kernel");
 }
 

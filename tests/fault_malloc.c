@@ -2,7 +2,8 @@
  * too, from the start of main to its end.  In place of main a server runs, which forks a
  * process that goes on with main for every fault_request; its output goes to the files
  * out and err, FAULT_CALLS names the file that keeps the calls that have seen a failure,
- * and FAULT_CODE_END says how far in the program calls count (hexadecimal; empty: all). */
+ * FAULT_CODE_END says how far in the program calls count (hexadecimal; empty: all), and
+ * FAULT_KERNELS names a file of those that use memory without a look: from, to (hexadecimal). */
 #define _GNU_SOURCE
 #include "fault_calls.h"
 #include "fault_malloc.h"
@@ -10,6 +11,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,10 +140,17 @@ static int serve(int argc, char **argv, char **environment)
     stacks = map_shared(STACKS * sizeof *stacks, NULL);
     run = map_shared(sizeof *run, NULL);
     find_program();
+    FILE *ranges = fopen(getenv("FAULT_KERNELS"), "r");
+    for (; ranges && kernels < KERNELS; kernels++)
+        if (fscanf(ranges, "%" SCNxPTR " %" SCNxPTR, &kernel[kernels][0], &kernel[kernels][1]) != 2)
+            break;
+    if (ranges)
+        fclose(ranges);
     const char *end = getenv("FAULT_CODE_END");
     if (end && *end)
         code_end = base + strtoul(end, NULL, 16);
     unsetenv("FAULT_CODE_END");
+    unsetenv("FAULT_KERNELS");
     unsetenv("FAULT_CALLS");
     unsetenv("LD_PRELOAD");
     while (read(FAULT_REQUESTS, &request, sizeof request) == sizeof request) {
