@@ -975,11 +975,11 @@ TEST(results_with_error_bars_are_checked_on_their_mesh)
         if (!strstr(said, of_mesh[k].part))
             fail_msg("%s: '%s' lacks '%s'", of_mesh[k].path, said, of_mesh[k].part);
     }
-    root = run_json(bars[3]);
+    held_json *with_bars = run_json(bars[3]);
     for (size_t k = 0; k < sizeof changed / sizeof *changed; k++) {
         if (!is_in_turn((int)k, 3))
             continue;
-        const char *said = said_of(root, changed[k].path, changed[k].value);
+        const char *said = said_of(with_bars, changed[k].path, changed[k].value);
         if (!strstr(said, changed[k].part))
             fail_msg("%s: '%s' lacks '%s'", changed[k].path, said, changed[k].part);
     }
