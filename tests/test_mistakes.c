@@ -57,6 +57,9 @@ static const struct {
     {"--output nowhere/table.tsv", "nowhere/table.tsv"},
     {"cas.ini", "No such file"},
     {"curv", "did you mean 'curve'"},
+    {"wheel", "it is no command either (`rollbem help` lists them)"},
+    {"result.json", "result.json: expected a case file of lines 'key = value', got JSON"},
+    {"made-up.ini", "unknown section 'study'; the sections are body-a, body-b, gap, friction,"},
     {"solve --mu 0.3", "rollbem [OPTION...] [CASE.ini] solves"},
     {"run hash.ini", "rollbem [OPTION...] [CASE.ini] solves"},
     {"hash.ini", "a comment after a value begins with ';', got '460 # comment'"},
@@ -80,6 +83,8 @@ TEST(forty_mistakes_get_a_line_that_helps)
     write_file("good.ini", "mu = 0.2\n");
     write_file("typo.ini", "crep = 0.001\n");
     write_file("section.ini", "[friction]\nradius = 460\n");
+    write_file("made-up.ini", "[study]\nmu = 0.2\n");
+    write_file("result.json", "{\n  \"schema\": 1\n}\n");
     write_file("one.txt", "1\n2\n3\n");
     assert_true(sizeof mistakes / sizeof *mistakes >= 40);
     for (size_t k = 0; k < sizeof mistakes / sizeof *mistakes; k++) {

@@ -45,7 +45,11 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
                         "blank, as 210GPa",
                         path);
     cli_guess_command(&guess);
-    return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
+    const char *hint = rb_guess_text(&guess, "");
+    char command[24];
+    if (!*hint && !*cli_command_of(spec, command) && !path[strcspn(path, "./")])
+        hint = "; it is no command either (`rollbem help` lists them)";
+    return cli_fail(cli_exit_of(s), "%s%s", why.text, hint);
 }
 
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
