@@ -155,6 +155,7 @@ rb_status rb_bem_displacement_subtracted(rb_bem_system *system, rb_bem_normals n
     double *R = rb_alloc(units, (size_t)loads), *X = rb_large_alloc(ld, (size_t)loads + 1),
            to[2][2];
     s = R && X ? RB_OK : RB_ENOMEM;
+    /* From normal and tangential tractions to x and y. */
     for (int i = 0; i < n && s == RB_OK; i++) {
         rb_bem_contact_frame(mesh, first + i, normals, to);
         for (size_t l = 0; l < (size_t)loads; l++)
@@ -164,11 +165,13 @@ rb_status rb_bem_displacement_subtracted(rb_bem_system *system, rb_bem_normals n
     }
     if (s == RB_OK)
         s = solve_loads(system, 1, loads, R, X);
+    /* A few loads are solved by GMRES without an LU; where it does not converge, with one. */
     if (s == RB_MAXITER) {
         s = rb_bem_system_factor(system, why);
         if (s == RB_OK)
             s = solve_loads(system, 1, loads, R, X);
     }
+    /* And back: w of the loads, w0 of the given values, the last column. */
     for (int i = 0; i < m && s == RB_OK; i++) {
         const double *U = X + system->dofs - 2 * m + 2 * i;
         rb_bem_contact_frame(mesh, first + i, normals, to);

@@ -41,7 +41,7 @@ rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
     return f->x && f->h && f->w0 ? RB_OK : RB_ENOMEM;
 }
 
-/* ---- A dense matrix ---------------------------------------------------------------- */
+/* ---- A dense matrix: F, 2 m x 2 n, columns [r_N, r_T], rows [w_N, w_T] ---------------- */
 
 static void dense_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
@@ -58,6 +58,9 @@ static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
     return RB_OK;
 }
 
+/* A + the matrix B of a body that lies below (4.5).  Mirrored at the contact it keeps N, and T
+ * changes its sign: the diagonal blocks stay, F_NT and F_TN come with a minus, so that identical
+ * bodies lose their coupling. */
 void rb_bem_add_mirrored_columns(int n, int m, const double *B, double *A, int lda)
 {
     const size_t rows = 2 * (size_t)m;

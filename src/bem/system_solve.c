@@ -13,7 +13,7 @@
 
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
 {
-    if (!s->A) {
+    if (!s->A) { /* a hierarchical matrix */
         /* Solutions come in the order of the dofs, the unknowns are turned by `offset`. */
         const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
         double *turned = rb_alloc(dofs, 1);
@@ -32,7 +32,8 @@ rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, doubl
     return RB_OK;
 }
 
-/* x: the right-hand side, then the unknowns. */
+/* x: the right-hand side b of A x = b (B4), then the unknowns, which are displacements where the
+ * traction is given and tractions, counted in `unit`, where the displacement is. */
 static rb_status solve_values(const rb_bem_system *s, double *x, const double *value, double *u,
                               double *t)
 {
@@ -46,6 +47,7 @@ static rb_status solve_values(const rb_bem_system *s, double *x, const double *v
             u[dof] = held ? value[dof] : unknown;
             t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
         }
+        /* On a bonded core the interface moves by the core's own flexibility C, u = -C t. */
         if (s->bond) {
             const int from = 2 * s->bond->first, n = 2 * s->bond->n;
             cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from, 1, 1.0,
@@ -64,6 +66,7 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
     if (!x)
         return RB_ENOMEM;
     double *value = x + n;
+    /* b + Gc t_c: contact tractions are a load like any other (B5). */
     memcpy(x, s->b, (size_t)n * sizeof *x);
     memcpy(value, s->mesh.value, (size_t)n * sizeof *value);
     for (int k = 0; k < loads; k++)

@@ -60,6 +60,7 @@ double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j)
     return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
 }
 
+/* Element `next` begins where j ends, within rounding: of a contour that closes. */
 static int meets(const rb_bem_mesh *mesh, int j, int next)
 {
     const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);

@@ -19,7 +19,8 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     memset(bodies, 0, sizeof *bodies);
 }
 
-/* Without the boundaries of wheels, which rb_bem_system_create looks at. */
+/* Refuses what has no room before anything is computed; without the boundaries of wheels, which
+ * rb_bem_system_create looks at. */
 static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               rb_message *why)
 {
@@ -29,6 +30,7 @@ static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *
     return rb_memory_check(rb_rolling_bytes(rc, mesh->n, 0, 2 * mesh->n), what, why);
 }
 
+/* The third body (4.10) gives way under the traction of its own element alone: a diagonal. */
 static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f)
 {
     const int n = f->n;
@@ -46,6 +48,9 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
     return s;
 }
 
+/* What is wanted of a body: its flexibility as a matrix; as products by Fourier transforms, for
+ * many elements; or the near field of its loads alone, in closed form, while edges are searched
+ * for: the far field hardly changes from mesh to mesh (far_field.h). */
 typedef enum { WHOLE, BY_TRANSFORMS, NEAR } part;
 
 static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -60,7 +65,8 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_pl
                 : kind->flexibility)(rc, plan, body, mesh, one_body, why);
 }
 
-/* f: that of both bodies together; one_body: what else they have made. */
+/* F = F_A + F_B (4.5), B mirrored, so that its coupling blocks change their sign.  f: that of both
+ * bodies together; one_body: what else they have made. */
 static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_mesh *mesh, part wanted,
                              rb_rolling_body_flexibility one_body[2], rb_bem_flexibility *f,
@@ -85,6 +91,8 @@ static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *p
     return s;
 }
 
+/* Products cost n log n where the matrix costs n^2, so that Newton's method on
+ * many elements of half-planes iterates with them. */
 static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                 rb_rolling_bodies *bodies, rb_message *why)
 {

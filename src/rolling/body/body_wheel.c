@@ -6,6 +6,8 @@
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 
+/* The closed polygon of the wheel (B4), graded from the contact's elements to those far away (B7),
+ * with its support (B6). */
 static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_body *body,
                                const rb_rolling_mesh *mesh, rb_bem_cylinder *cylinder,
                                rb_bem_mesh *boundary, rb_message *why)
@@ -20,7 +22,7 @@ static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_bod
     rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, boundary, why);
     if (s != RB_EINVAL)
         return s;
-    /* is it also wrong with as many elements as fit? */
+    /* The message names what is to be changed: is it also wrong with as many elements as fit? */
     rb_bem_cylinder graded = *cylinder;
     graded.outer_elements = 0;
     s = rb_bem_mesh_cylinder(&graded, mesh->n, mesh->ends, boundary, NULL);
@@ -73,6 +75,8 @@ rb_status rb_rolling_boundary_system(const rb_rolling_model *model, int of_b, in
                         few, system, why);
 }
 
+/* (B10) Constant elements err by some per cent next to a load.  That is left to equal elements,
+ * which err more at the edges; graded elements and covers would lose what they gain. */
 int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                          const rb_rolling_body *body)
 {
@@ -80,7 +84,8 @@ int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                                   : plan->near_field == RB_NEAR_FIELD_EXACT;
 }
 
-/* By boundary elements all around, condensed to the contact (B5); or by waves. */
+/* By boundary elements all around, A x = b (B4), condensed to the contact, F (B5); a covered roll
+ * by waves, which needs no elements outside the contact (B12). */
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                    const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)

@@ -29,6 +29,7 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
+/* g_0 of (K1) without a tilt: table, wave, x^2/(2R), or circles without cancellation (B9). */
 static double upright_gap(const rb_rolling_case *rc, double x)
 {
     const double worn = rb_rolling_worn_depth(rc, x), R = rc->a.radius, bore = -rc->b.radius;
@@ -49,7 +50,7 @@ static double upright_gap(const rb_rolling_case *rc, double x)
     return x * x * (bore - R) * (1.0 + (R + bore) / (a + b)) / ((R + a) * (bore + b)) + worn;
 }
 
-/* (U3) */
+/* (U3) A tilt of the upper body lowers its gap on one side. */
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
 {
     const double tilt = rb_rolling_tilt(rc);
@@ -68,6 +69,7 @@ rb_status rb_rolling_mesh_alloc(int n, rb_rolling_mesh *mesh)
     return RB_ENOMEM;
 }
 
+/* An irregularity passes through the contact: `passed` is how far it has moved. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,
                                double *gap)
 {

@@ -43,9 +43,10 @@ static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodie
     return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside) : RB_ENOMEM;
 }
 
-/* ---- Its operator ------------------------------------------------------------- */
+/* ---- F and S = A [F_TN F_TT], as the solvers need them ------------------------------- */
 
-/* The matrix, with the products at its side where these solve sooner. */
+/* The matrix, with the products at its side where these solve sooner.  F has 2 m rows, m = n + 1:
+ * w_N and w_T of the n elements and of one more upstream, from which the material comes (4.2). */
 static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                                rb_rolling_kinematic *A, rb_contact_operator **op)
 {
@@ -66,7 +67,8 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
         for (int i = 0; i < n; i++)
             S[i + (size_t)j * n] = rb_rolling_kinematic_row(A, w_T, outside, i);
     }
-    /* S has A on all of F_TT so far. */
+    /* S has A on all of F_TT so far; the interlayer's compliance, which is local, takes the other
+     * differences. */
     for (int i = 0; i < n && A->outside; i++)
         for (int k = 0; k < 4; k++) {
             const int j = i - 1 + k;

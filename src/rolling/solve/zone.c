@@ -1,5 +1,8 @@
 /* The potential contact: the interval with elements, which must enclose the whole contact
- * (theory-solvers.md 5.1). */
+ * (theory-solvers.md 5.1).  It is not known before the contact is solved, so it is tried: begin a
+ * little wider than Hertz's contact and solve; grow it while elements at an end are pressed or
+ * bodies overlap outside; narrow it where most of it is separated, because elements that carry
+ * nothing are wasted. */
 #include "rolling/body/far_field.h"
 #include "rolling/body/mesh.h"
 #include "rolling/case/internal.h"
@@ -18,8 +21,13 @@ enum {
     ENOUGH = 40           /* elements that have room beside 0.95 of the lower half */
 };
 
+/* By what a potential contact that is too narrow grows, and by what the first one is wider than
+ * Hertz's contact; what is enough about edges that were found; and what may be left as it is, since
+ * another round of the search costs more than some separated elements. */
+static const double WIDER = 1.3, AROUND = 1.25, NEARLY = 1.25;
+
 typedef struct {
-    double from, to;
+    double from, to; /* [length] */
 } interval;
 
 static double width(interval zone)
@@ -130,7 +138,8 @@ static rb_status equal_elements(const rb_rolling_model *model, interval zone, in
 /* ---- The first potential contact --------------------------------------------------- */
 
 /* Where the undeformed gap is less than at the edge of Hertz's contact, a^2/(2R): this is
- * 2P/(pi E*) and does not depend on the radius.  Three tenths wider. */
+ * 2P/(pi E*) and does not depend on the radius, so it also serves for measured profiles.  WIDER
+ * than that. */
 void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
                            double *level)
 {
@@ -151,7 +160,7 @@ void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, 
         rb_rolling_low_gap(rc, limit.from, limit.to, rise, &zone.from, &zone.to, least, level);
         zone = within(zone, limit);
     }
-    zone = within(scaled(zone, 1.3), limit);
+    zone = within(scaled(zone, WIDER), limit);
     *from = zone.from;
     *to = zone.to;
 }
@@ -187,14 +196,14 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
     separated_at_ends(&model->state, &left, &right);
     const int at_left = left < wanted, at_right = right < wanted;
     const int both = is_symmetric(model->rc) && (at_left || at_right);
-    const interval more = within(scaled(zone, 1.3), extent(model->rc));
+    const interval more = within(scaled(zone, WIDER), extent(model->rc));
     if (at_left || both)
         zone.from = fmin(zone.from, more.from);
     if (at_right || both)
         zone.to = fmax(zone.to, more.to);
     *wider = zone;
     for (int k = 0; k < overlap.count; k++) {
-        const interval there = scaled((interval){overlap.from[k], overlap.to[k]}, 1.3);
+        const interval there = scaled((interval){overlap.from[k], overlap.to[k]}, WIDER);
         wider->from = fmin(wider->from, there.from);
         wider->to = fmax(wider->to, there.to);
     }
@@ -232,7 +241,7 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
         return s;
     rb_rolling_case automatic = *model->rc;
     rb_rolling_model wider;
-    double wanted = 1.3 * zone;
+    double wanted = WIDER * zone;
     automatic.zone = 0.0;
     if (rb_rolling_model_begin(&automatic, &model->plan, &wider, NULL) == RB_OK &&
         rb_rolling_solve_zone(&wider, 0, NULL) == RB_OK)
@@ -261,6 +270,49 @@ static rb_status go_on_by_far_field(rb_rolling_model *model, rb_message *why)
                : RB_OK;
 }
 
+/* Few elements tell as well how wide the potential contact of many should be.  Returns the width
+ * that was found with as many elements as the model has, 0 with fewer: what is tighter than that
+ * has been tried then. */
+static double search_with_few(const rb_rolling_model *model, interval *zone)
+{
+    rb_rolling_plan few = model->plan;
+    rb_rolling_case equal = *model->rc;
+    rb_rolling_model first;
+    double tried = 0.0;
+
+    few.elements = few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ? FEW : few.elements;
+    rb_rolling_coarsen_boundary(&few);
+    equal.mesh = RB_MESH_UNIFORM;
+    if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
+        rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
+        /* the zone, not the edges: between edges it would not grow like Hertz's half-width (D6) */
+        *zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+        tried = few.elements == model->plan.elements ? width(*zone) : 0.0;
+    }
+    rb_rolling_model_free(&first);
+    return tried;
+}
+
+/* The contact that a solution has found. */
+static interval found_contact(const rb_rolling_model *model)
+{
+    interval edge;
+
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
+    if (isnan(rb_rolling_derive(model->rc).load)) {
+        /* those of elements, which move with the first zone alone and not with the
+         * pressure: derivatives know how (theory-solvers.md D6) */
+        int left, right;
+        separated_at_ends(&model->state, &left, &right);
+        edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};
+    }
+    if (is_symmetric(model->rc)) {
+        edge.to = fmax(fabs(edge.from), fabs(edge.to));
+        edge.from = -edge.to;
+    }
+    return edge;
+}
+
 /* Grows the potential contact until enough separated elements stand at each end, or no
  * material is left; tightens it when the contact turns out to fill less than two thirds
  * of it; and takes more elements where they are too long for separate patches, unless a
@@ -270,31 +322,17 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
     const interval before = {model->first_from, model->first_to};
     interval zone = before;
     int elements = model->plan.elements;
-    double too_narrow = 0.0;
+    double too_narrow = 0.0; /* the widest one that was */
     rb_status s;
 
     if (model->rc->zone > 0.0)
         return unless_open(model, solve_given(model, why), why);
     /* Begin with the potential contact of the last search, or with that of Hertz's width. */
     if (coarse || !(width(before) > 0.0)) {
-        rb_rolling_plan few = model->plan;
         zone = first_zone(model->rc);
-        if (few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM || rb_rolling_has_fine_boundary(&few)) {
-            /* Few elements tell as well how wide the line should be. */
-            rb_rolling_case equal = *model->rc;
-            rb_rolling_model first;
-            few.elements = few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ? FEW : few.elements;
-            rb_rolling_coarsen_boundary(&few);
-            equal.mesh = RB_MESH_UNIFORM;
-            if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
-                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
-                zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
-                /* As many have tried what is tighter.  A zone between edges that were found
-                 * would not grow like Hertz's half-width. */
-                too_narrow = few.elements == elements ? width(zone) : 0.0;
-            }
-            rb_rolling_model_free(&first);
-        }
+        if (elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ||
+            rb_rolling_has_fine_boundary(&model->plan))
+            too_narrow = search_with_few(model, &zone);
     }
     for (int round = 0;; round++) {
         rb_rolling_mesh mesh;
@@ -312,8 +350,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             s = rb_rolling_model_build(model, &mesh, why);
         if (s < 0 || !model->state.p || (s != RB_ZONE && rb_rolling_gave_up(model)))
             return s;
-        /* Too narrow: wider by three tenths where the contact is near an end, and about all places
-         * where the bodies overlap outside. */
+        /* Too narrow: WIDER where the contact is near an end, and about all places where the bodies
+         * overlap outside. */
         const rb_status t = grown(model, zone, &wider);
         if (t != RB_OK)
             return t;
@@ -327,28 +365,13 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         }
         if (is_open(model))
             break;
-        /* What would do: a quarter of the half-width beyond either edge. */
-        interval edge;
-
-        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
-        if (isnan(rb_rolling_derive(model->rc).load)) {
-            /* those of elements, which move with the first zone alone and not with the
-             * pressure: derivatives know how (theory-solvers.md D6) */
-            int left, right;
-            separated_at_ends(&model->state, &left, &right);
-            edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};
-        }
-        if (is_symmetric(model->rc)) {
-            edge.to = fmax(fabs(edge.from), fabs(edge.to));
-            edge.from = -edge.to;
-        }
-        const interval wanted = within(scaled(edge, 1.25), extent(model->rc));
-        const int more = coarse ? elements : elements_for(model, zone);
         /* Too wide: the contact fills less than two thirds of it, and it is not known that what is
          * tighter is too narrow.  Too coarse: patches need shorter elements. */
+        const interval wanted = within(scaled(found_contact(model), AROUND), extent(model->rc));
+        const int more = coarse ? elements : elements_for(model, zone);
         const int keeps_zone =
-            width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
-        if (keeps_zone && more <= 1.25 * elements)
+            width(zone) < NEARLY * width(wanted) || width(wanted) <= 1.05 * too_narrow;
+        if (keeps_zone && more <= NEARLY * elements)
             break;
         zone = keeps_zone ? zone : tightened(model->rc, wanted);
         elements = coarse ? elements : elements_for(model, zone);
