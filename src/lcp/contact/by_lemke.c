@@ -10,11 +10,12 @@
  * once. */
 typedef enum { EVEN, UNEVEN } covering;
 
+/* An LCP of the contact problem. */
 typedef struct {
-    int number;
+    int number; /* for the trace */
     rb_contact_lcp_form form;
-    int mirrored;
-    double xi0;
+    int mirrored; /* 1: oriented against the direction of sliding (K5) */
+    double xi0;   /* of full sliding, from which a given force is approached (K6) */
 } attempt;
 
 /* Pivoted form in its own orientation, mirrored, and Kwak's (theory.md K5). */
@@ -80,6 +81,7 @@ rb_status rb_contact_by_lemke(rb_contact_problem *problem, const rb_contact_opti
         s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
         double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
         const int uneven = s == RB_OK && order_of_attempts[k].cover == UNEVEN;
+        /* Multiples of the golden section modulo 1 lie unevenly, each far from the others. */
         if (uneven) /* NULL: ones */
             cover = rb_alloc((size_t)lcp.size, 1);
         for (int i = 0; i < lcp.size && cover; i++)

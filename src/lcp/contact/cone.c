@@ -30,6 +30,7 @@ rb_status rb_contact_cone_create(const rb_contact_problem *p, double delta, doub
         rb_contact_cone_free(cone);
         return rb_fail(why, RB_ENOMEM, "out of memory for a cone problem of %d contacts", p->n);
     }
+    /* Blocks [N; T] of all elements become pairs [N, T] of each. */
     for (size_t j = 0; j < m; j++) {
         const size_t column = 2 * (j % n) + j / n;
         for (size_t i = 0; i < n; i++) {

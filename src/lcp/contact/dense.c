@@ -46,6 +46,8 @@ static void add_product(int n, const double *A, int lda, const double *x, double
                     lda, x + from, 1, 1.0, y, 1);
 }
 
+/* gap += F_NN p + F_NT q (K1), slip += S_N p + S_T q (K2); without coupling half of the products.
+ */
 static void dense_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
                       double *slip)
 {
@@ -89,6 +91,7 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
     rb_status s = RB_OK;
     int converged = 0;
 
+    /* Large systems by GMRES, where the elements also have products. */
     by_products.op = rb_contact_operator_by_products(p->op, r->size);
     if (by_products.op && by_products.op->kind->solve(&by_products, state, r) == RB_OK)
         return RB_OK;

@@ -10,8 +10,6 @@
 #include <string.h>
 
 enum { BASIS = RB_CONTACT_BASIS, CYCLES = 6, BORDERS = 2 };
-/* 2-norm of the scaled residual at which a solve ends. */
-static const double TOLERANCE = 2e-11;
 
 /* ---- The preconditioner ------------------------------------------------------------ */
 
@@ -128,7 +126,7 @@ rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scr
     double *small = rb_alloc(RB_GMRES_SMALL(BASIS), 1);
     rb_status status = make_solver(linear, scratch, &s);
     const double rounding = 2.0 * DBL_EPSILON * cblas_dnrm2(s.size, b, 1);
-    const double tolerance = fmax(TOLERANCE, rounding);
+    const double tolerance = fmax(RB_CONTACT_GMRES_TOLERANCE, rounding);
     /* what the rounding of products leaves, in a 2-norm */
     const double floor = fmax(tolerance, DBL_EPSILON * s.size * sqrt(s.size));
     double enough = tolerance, before = INFINITY, residual = INFINITY, estimate = INFINITY;

@@ -15,6 +15,9 @@ struct rb_contact_linear {
     const void *of;
 };
 
+/* 2-norm of the scaled residual at which a solve ends. */
+#define RB_CONTACT_GMRES_TOLERANCE 2e-11
+
 /* Workspace that is kept from solve to solve, because allocating memory costs more than
  * the arithmetic.  Initially zero except for size. */
 enum { RB_CONTACT_BASIS = 100 };

@@ -18,14 +18,16 @@ typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_contact_unknow
  * order of the rows: gaps, slips, load, force.  All are scaled to order one. */
 typedef struct {
     rb_contact_unknowns unknowns;
-    int contacts, sticks, load, force, size;
-    int *contact, *stick;          /* element numbers */
-    double *control_N, *control_T; /* n: row of the given force */
-    double force_scale;            /* scale of this row */
-    double *gap, *lambda;          /* n: with the unknowns at zero */
-    double *start;                 /* size: the unknowns of the state at the beginning */
-    double *x;                     /* size: right-hand side, then solution */
-    int changes;                   /* number of unknowns changed since the LU that was used */
+    int contacts, sticks, load, force; /* load, force: 1 where it is given, so that delta, xi is
+                                          an unknown, else 0 */
+    int size;                          /* their sum */
+    int *contact, *stick;              /* element numbers */
+    double *control_N, *control_T;     /* n: row of the given force */
+    double force_scale;                /* scale of this row */
+    double *gap, *lambda;              /* n: with the unknowns at zero */
+    double *start;                     /* size: the unknowns of the state at the beginning */
+    double *x;                         /* size: right-hand side, then solution */
+    int changes;                       /* number of unknowns changed since the LU that was used */
     int slight;      /* number of unknowns whose friction has changed slightly since then */
     double growth;   /* ratio of the tractions without borders to those with borders */
     rb_arena memory; /* of the arrays */
@@ -34,10 +36,6 @@ typedef struct {
 rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem, rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r);
 void rb_contact_reduced_free(rb_contact_reduced *r);
-/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
-void rb_contact_force_row(const rb_contact_problem *problem, double *control_N, double *control_T);
-/* Scale of the given force: mu times the resultant of the scale pressure. */
-double rb_contact_force_scale(const rb_contact_problem *problem);
 
 /* Slope in r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown. */
 static inline double rb_contact_slope(int zone)
@@ -112,8 +110,14 @@ struct rb_contact_operator {
 /* Allocates arrays of zeros for the n elements of a problem whose operator is set; frees
  * the operator if there is no memory. */
 rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
+/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
+void rb_contact_force_row(const rb_contact_problem *problem, double *control_N, double *control_T);
+/* Scale of the given force: mu times the resultant of the scale pressure. */
+double rb_contact_force_scale(const rb_contact_problem *problem);
 /* 1: the given force is all that friction can carry. */
 int rb_contact_slides_fully(const rb_contact_problem *problem);
+/* 1: further steps and other starts may be tried. */
+int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contact_state *state);
 
 /* ---- dense.c ----------------------------------------------------------------------- */
 
@@ -144,8 +148,6 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
 /* The zone of an element in contact that slides by lambda. */
 rb_contact_zone rb_contact_sliding_zone(double lambda);
 
-/* 1: further steps and other starts may be tried. */
-int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contact_state *state);
 /* Zones from p, q and lambda; entries below tol times the scales count as zero. */
 void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state);
 

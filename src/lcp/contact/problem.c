@@ -81,7 +81,7 @@ static double weighted(const rb_contact_state *state, const double *a_N, const d
 
 double rb_contact_load(const rb_contact_problem *p, const rb_contact_state *state)
 {
-    return weighted(state, p->load_N, p->load_T);
+    return weighted(state, p->load_N, p->load_T); /* load_T: 0 unless normals are the surface's */
 }
 
 double rb_contact_force(const rb_contact_problem *p, const rb_contact_state *state)
@@ -94,8 +94,8 @@ double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *st
     return weighted(state, p->moment_N, p->moment_T);
 }
 
-/* From mu P what elements with a smaller bound carry less: exactly mu P where there are
- * none. */
+/* mu P less what elements with a smaller bound carry less than mu: the sum of bound r_N would not
+ * be mu P to the last digit where all bounds are mu, and a ratio of 1 is full sliding. */
 double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *state)
 {
     const double P = rb_contact_load(p, state);
@@ -106,6 +106,9 @@ double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *
     return p->mu * P - less;
 }
 
+/* All that can be given is one equation (4.6), Q = force + force_ratio (sum of bound_i P_i) - axle
+ * M: a force, a part of what friction carries, or the moment on a free axle.  Terms with unknown
+ * tractions stand on the left. */
 void rb_contact_force_row(const rb_contact_problem *p, double *control_N, double *control_T)
 {
     for (int i = 0; i < p->n; i++) {
@@ -121,6 +124,7 @@ int rb_contact_has_steps_left(const rb_contact_problem *problem, const rb_contac
            rb_contact_operator_matrix(problem->op).F;
 }
 
+/* Then no element sticks, so that no equation fixes xi: force.c has a way of its own. */
 int rb_contact_slides_fully(const rb_contact_problem *problem)
 {
     return problem->force_given && problem->force == 0.0 && problem->axle == 0.0 &&

@@ -138,7 +138,9 @@ typedef struct {
     double length;
 } group;
 
-/* What slipping elements owe to the pressure is left out. */
+/* The inverse for an infinite line, of the unknown places alone.  What slipping elements owe to the
+ * pressure is left out: it is mu times the coupling, small beside the diagonal blocks, and the two
+ * groups need one transform each without it. */
 static void precondition_group(const system_of *s, const group *g, const double *b, double *x)
 {
     const products *op = of(s->p);
@@ -178,7 +180,6 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
                                       .border_rows = border_rows,
                                       .of = &system};
     enum { ROWS = 2 };
-    static const double LITTLE = 2e-11;
     rb_status s = RB_OK;
 
     rb_contact_reduced_clear(p, r, state);
@@ -191,7 +192,8 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
             double row[ROWS];
             border_rows(&system, r->start, row);
             const double factor = r->x[r->contacts + r->sticks] / row[0];
-            if (fabs(factor - 1.0) * rb_norm_inf((size_t)r->size, r->x) < LITTLE)
+            if (fabs(factor - 1.0) * rb_norm_inf((size_t)r->size, r->x) <
+                RB_CONTACT_GMRES_TOLERANCE)
                 cblas_dscal(r->size, factor, r->start, 1);
         }
         if (s == RB_OK)

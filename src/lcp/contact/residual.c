@@ -111,6 +111,7 @@ rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contac
         const double tangential = rb_contact_friction_scale(problem), length = problem->slip_length,
                      limit = problem->bound[i] * state->p[i];
         const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
+        /* (K1) min(y_N, r_N) = 0, and (K3), in units in which all four are of order one. */
         const double contact =
             fabs(fmin(m.gap[i] / problem->gap_length, state->p[i] / problem->stress));
         double coulomb = friction_violation((m.lambda[i] - state->plastic[i]) / length,
@@ -127,6 +128,7 @@ rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contac
         v->gap = fmax(v->gap, contact * problem->gap_length);
         v->slip = fmax(v->slip, coulomb * problem->slip_length);
         v->friction = fmax(v->friction, -fmin(gamma_plus, gamma_minus));
+        /* fmax drops a NaN, which must not pass for a solution. */
         if (isnan(state->p[i]) || isnan(state->q[i]))
             v->scaled = INFINITY;
     }
@@ -136,6 +138,8 @@ rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contac
     return RB_OK;
 }
 
+/* Of two complementary numbers the larger one says which of both is zero: slip outweighs what
+ * friction lacks of its bound, or it is rounding and the element sticks.  Scaled arguments. */
 static rb_contact_zone zone_of(double p, double lambda, double gamma_plus, double gamma_minus,
                                int frictionless)
 {
@@ -155,6 +159,7 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_conta
     const double tangential = rb_contact_friction_scale(problem), length = problem->slip_length;
     double next = 0.0, second = 0.0;
 
+    /* From the leading edge on: accumulated plastic slip comes with the material (Y1). */
     for (int i = problem->n - 1; i >= 0; i--) {
         const double limit = problem->bound[i] * state->p[i], q = state->q[i];
         const double u = problem->recall[0] * next + problem->recall[1] * second +

@@ -13,7 +13,9 @@ rb_contact_options rb_contact_defaults(void)
 typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
 enum { METHODS = 3 };
 
-/* The method of a problem whose tangential drive friction can follow. */
+/* The method of a problem whose tangential drive friction can follow.  Lemke's method ends in a
+ * solution of nearly every problem, in time n^3 with a large factor; Newton's takes a few linear
+ * solves, and may go round in circles.  Hence each is the other's second attempt. */
 rb_status rb_contact_solve_given(rb_contact_problem *problem, const rb_contact_options *options,
                                  int warm, rb_contact_state *state, rb_message *why)
 {
@@ -27,6 +29,7 @@ rb_status rb_contact_solve_given(rb_contact_problem *problem, const rb_contact_o
         (options->solver == RB_SOLVER_AUTO && (warm || problem->n > RB_CONTACT_LEMKE_UP_TO));
     int count = 0;
 
+    /* Without a matrix there is no tableau: Newton's method alone. */
     if (newton_first && warm)
         order[count++] = NEWTON_WARM;
     else if (!newton_first)
@@ -44,6 +47,7 @@ rb_status rb_contact_solve_given(rb_contact_problem *problem, const rb_contact_o
         if (rb_contact_is_solved(s, problem, options, state))
             break;
     }
+    /* Last, also without a matrix: friction grows from nothing to its coefficient. */
     if (s >= 0 && !rb_contact_is_solved(s, problem, options, state) &&
         !rb_contact_operator_matrix(problem->op).F && problem->mu > 0.0 &&
         rb_contact_has_steps_left(problem, state))
@@ -87,6 +91,8 @@ rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options
                       ? rb_contact_solve_full_sliding(problem, options, state, why)
                       : rb_contact_solve_given(problem, options, warm, state, why);
 
+    /* No solution: is there none, because friction carries less than the given force?  Else xi is
+     * unknown in every method above, and may be found by bisection instead. */
     if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
         const rb_status t = rb_contact_check_capacity(problem, options, state, why);
         if (t < 0)

@@ -115,7 +115,8 @@ static rb_status examine_local(const rb_sparse *w, int with_rank, rb_friction_fa
     if (s == RB_OK)
         s = rb_friction_sparse_asymmetry(w, &difference, &largest);
     if (s == RB_OK) {
-        /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
+        /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor.  The shift keeps
+         * rounding of a W that is only semidefinite, as of redundant contacts, from counting. */
         int *indefinite = &facts->indefinite;
         rb_triplets t = {.rows = w->rows, .cols = w->cols};
         rb_sparse sum = {0};
@@ -149,7 +150,7 @@ rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
     rb_status s;
     *facts = (rb_friction_facts){0};
     switch (problem->form) {
-    case RB_FRICTION_GLOBAL: {
+    case RB_FRICTION_GLOBAL: { /* W = H' K^-1 H is not formed: the ranks of H and K tell */
         int rank = problem->dofs;
         if (!with_rank)
             s = RB_OK;

@@ -67,6 +67,7 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
         if (rho[k] > 0.0)
             sum += rho[k], count++;
     const double mean = count ? sum / count : 1.0;
+    /* A contact that gives way nowhere takes part with the mean of the others. */
     for (int k = 0; k < both; k++)
         rho[k] = 1.0 / (rho[k] > 1e-12 * mean ? rho[k] : mean);
     return RB_OK;

@@ -1,5 +1,7 @@
 /* Each contact in a unit of its own, so that neither methods nor what they accept depend on
- * the units of the file. */
+ * the units of the file: r = D r', u = D^-1 u', W' = D W D, q' = D q, H' = H D, w' = D w, with one
+ * number D per contact, because a cone keeps its shape only under one factor for all its
+ * directions. D is a power of two: scaling makes no rounding errors. */
 #include "lcp/friction/internal.h"
 
 #include <math.h>

@@ -1,4 +1,8 @@
-/* The linear system of one Newton step: what both forms share, and the global form. */
+/* The linear system of one Newton step.  At each contact the methods of *Acary* 4 linearise one
+ * equation F(r, u) = 0, B du + A dr = -F.  Local form (system_local.c): du = W dr makes it
+ * (B W + A) dr = -F.  Global form (here): dv stays unknown, du = H' dv, with the balance of forces:
+ *     [K  -H; B H'  A] (dv, dr) = (-e, -F),  e = K v - H r - f,
+ * which is sparse where W = H' K^-1 H is full. */
 #include "lcp/friction/internal.h"
 
 #include <lapacke.h>
@@ -124,7 +128,8 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
                              const double *e)
 {
     const int n = s->n, order = n + s->m;
-    /* The contact equations B H' dv + A dr; K and -H stay. */
+    /* The rows B H' and A of the contacts change from step to step; K and -H stay.  The matrix is
+     * kept transposed, so that each row is a column that can be filled at once. */
     const rb_sparse *h = &s->problem->H;
     const int d = s->d;
     double *place = s->x; /* dense column under construction, zeroed as it is read */
@@ -147,6 +152,7 @@ static rb_status global_step(rb_friction_system *s, const rb_friction_linearised
         s->rhs[i] = -e[i];
     for (int k = 0; k < s->m; k++)
         s->rhs[n + k] = -at->F[k];
+    /* Dense LU where the order is small or the matrix rather full, else sparse. */
     s->flops += 2.0 * s->d * (double)s->problem->H.p[s->m] * s->d;
     if (rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order))) {
         const size_t ld = (size_t)order;
@@ -213,6 +219,7 @@ rb_status rb_friction_system_begin(rb_friction_system *s, rb_friction_task *task
 rb_status rb_friction_system_step(rb_friction_system *s, const rb_friction_linearised *at,
                                   const double *e, double *dr, double *dv)
 {
+    /* x = (dv, dr); in the local form dr alone. */
     const rb_status st = s->n ? global_step(s, at, e) : rb_friction_local_step(s, at);
     for (int i = 0; i < s->n; i++)
         dv[i] = s->x[i];

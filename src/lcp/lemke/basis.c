@@ -1,4 +1,8 @@
-/* The basis of Lemke's method on sparse matrices: LU and product form of the inverse. */
+/* The basis of Lemke's method on sparse matrices: LU and product form of the inverse.  Of w = q + M
+ * z
+ * + d t the basic variables are some w, some z (their set is F) and mostly t.  In the rows R whose
+ * w is not basic, w = 0, stand equations for z_F and t alone, [M_RF d_R] x = -g_R; the other w
+ * follow by products.  So the LU has the order of the z that are not zero. */
 #include "lcp/lemke/basis.h"
 
 #include <stdlib.h>
@@ -127,7 +131,7 @@ rb_status rb_lcp_basis_solve(lcp_basis *b, const double *g, int refined, double 
     }
     for (int k = 0; s == RB_OK && k < m; k++)
         y[b->row[k]] = b->x[k];
-    /* The exchanges since. */
+    /* The exchanges since: each is one elimination step with the column that entered. */
     for (int k = 0; s == RB_OK && k < b->exchanges; k++) {
         const double x = y[b->pivot[k]] /= b->scale[k];
         if (x == 0.0)
@@ -156,6 +160,8 @@ rb_status rb_lcp_basis_column(lcp_basis *b, int variable, double *y)
 
 /* ---- Exchanges --------------------------------------------------------------------- */
 
+/* Keeps the entering column y = B^-1 a: the new basis is B E, E the unit matrix with y in the place
+ * of column `slot`, so that B_new^-1 g = E^-1 (B^-1 g). */
 rb_status rb_lcp_basis_exchange(lcp_basis *b, int slot, int variable, const double *y)
 {
     const int k = b->exchanges;

@@ -97,6 +97,7 @@ double rb_lcp_game_scale(const rb_lcp_game *g, double *a, double *b)
                 low = fmin(low, P[(size_t)i + (size_t)j * (size_t)g->ld]);
                 high = fmax(high, P[(size_t)i + (size_t)j * (size_t)g->ld]);
             }
+        /* A power of two: dividing by it makes no rounding errors. */
         const double wide = high > low ? exp2(ceil(log2(high - low))) : 1.0;
         for (int j = 0; j < g->n; j++)
             for (int i = 0; i < g->m; i++)
@@ -126,6 +127,7 @@ static rb_status solve_by_label(const rb_lcp_game *g, int label, const rb_lcp_op
     const double size = rb_lcp_game_scale(g, a, b);
     const howson_game positive = {g->m, g->n, a, b};
     rb_status s = RB_NUMERICAL;
+    /* In doubles, and once more in long doubles where rounding has led the path astray. */
     for (int more = 0; more < 2 && (s == RB_NUMERICAL || s == RB_INACCURATE); more++) {
         s = more ? follow_path_in_long_double(&positive, label, opt, began, z, info)
                  : follow_path_in_double(&positive, label, opt, began, z, info);
@@ -158,6 +160,9 @@ rb_status rb_lcp_bimatrix_rounds(const rb_lcp_game *g, const rb_lcp_options *opt
     double left = opt->max_iters ? INFINITY : ALL_WORK;
     int iters = 0, unfinished = 1;
     rb_status s = RB_MAXITER;
+    /* Paths of different labels differ in length by powers of ten, and nothing tells which is
+     * short: all get the same few pivots, then twice as many, so that the shortest costs twice its
+     * length times the labels at most. */
     for (double limit = 2.0 * order + 20.0; unfinished && left > 0.0; limit *= 2.0) {
         o.max_iters = (int)fmin(limit, most);
         unfinished = 0;

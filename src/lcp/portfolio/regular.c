@@ -1,10 +1,15 @@
-/* Whether a small matrix of doubles is singular, and which numbers of a basis are zero, exactly. */
+/* Whether a small matrix of doubles is singular, and which numbers of a basis are zero.  Doubles
+ * are fractions with a power of two below, so that they have residues modulo a prime, in which
+ * elimination makes no rounding errors.  A determinant that is not zero modulo one prime is not
+ * zero at all: that is proved.  One that is zero modulo both primes, of 61 bits each, is taken for
+ * zero; it would have to be a multiple of both. */
 #include "lcp/portfolio/linear.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
+/* The largest order, and how many primes. */
 enum { MOST = 32, PRIMES = 2 };
 static const uint64_t primes[PRIMES] = {2305843009213693921ULL, 2305843009213693907ULL};
 
@@ -23,7 +28,8 @@ static uint64_t power(uint64_t a, uint64_t exponent, uint64_t prime)
     return x;
 }
 
-/* A double is a whole number of 53 bits times a power of two. */
+/* A double is a whole number of 53 bits times a power of two; modulo a prime 1/2 is (prime + 1)/2.
+ */
 static uint64_t residue(double x, uint64_t prime)
 {
     int e;
@@ -55,6 +61,7 @@ static int eliminate(int m, uint64_t (*a)[MOST + 1], uint64_t prime, int only_re
             a[r][j] = a[rank][j];
             a[rank][j] = t;
         }
+        /* Fermat: a^(prime - 1) = 1, so that a^(prime - 2) is the inverse. */
         const uint64_t inverse = power(a[rank][c], prime - 2, prime);
         for (int j = c; j <= m; j++)
             a[rank][j] = times(a[rank][j], inverse, prime);
