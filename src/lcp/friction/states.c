@@ -1,6 +1,6 @@
 /* All solutions of a small plane problem: every state of every contact is tried. */
 #include "lcp/friction/internal.h"
-#include "lcp/portfolio/linear.h"
+#include "lcp/portfolio/enumerate.h"
 #include "lcp/proof/bounds.h"
 
 #include <lapacke.h>

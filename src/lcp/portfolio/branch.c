@@ -2,7 +2,7 @@
  * a bound or w_i is zero, depth first.  Under each choice the linear program of the inequalities
  * that remain minimises the sum of z and w; where it has no solution, the choice has none.  So
  * the search ends with a solution, or with the proof that there is none. */
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/linear.h"
 #include "lcp/portfolio/methods.h"
 
 #include <lapacke.h>

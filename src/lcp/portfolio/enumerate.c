@@ -1,7 +1,9 @@
 /* All solutions of a small problem: every complementary basis is tried, and none is left out
  * because its matrix is singular.  What may be a solution is proved to be one, or not to be
  * one (exact.c), or the basis is undecided; solutions within rounding only are marked. */
-#include "lcp/portfolio/linear.h"
+#include "lcp/portfolio/enumerate.h"
+#include "lcp/proof/exact.h"
+#include "lcp/proof/linear.h"
 #include "lcp/proof/bounds.h"
 
 #include <cblas.h>
@@ -42,14 +44,6 @@ typedef struct {
     double *inverse, *work; /* n x n each; work: of dgecon as well, 4 n at least */
     lcp_linear *linear;     /* owned */
 } search;
-
-int rb_lcp_is_place(const double *lower, const double *upper, int i, lcp_side at)
-{
-    const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
-    return at == LCP_AT_LOWER   ? isfinite(low)
-           : at == LCP_AT_UPPER ? isfinite(high) && high > low
-                                : high > low;
-}
 
 /* M z + q, with the z that are between their bounds as they stand. */
 static void product(search *s)

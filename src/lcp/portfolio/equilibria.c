@@ -2,7 +2,7 @@
  * replies whose labels are all labels (Mangasarian, Journal of SIAM 12, 1964; von Stengel,
  * Handbook of Game Theory 3, 2002).  The others are mixtures within maximal sets. */
 #include "lcp/portfolio/game.h"
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/exact.h"
 
 #include <lapacke.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #define LCP_PROOF_ABSENT_H
 
 #include "lcp/lemke/lemke.h"
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/linear.h"
 
 /* rb_proof_least_sum with multipliers that a linear program finds, and the multiples of them that
  * are nearly whole numbers. */

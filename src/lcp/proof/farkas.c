@@ -20,6 +20,14 @@ typedef struct {
     double least, most;
 } interval;
 
+int rb_lcp_is_place(const double *lower, const double *upper, int i, lcp_side at)
+{
+    const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
+    return at == LCP_AT_LOWER   ? isfinite(low)
+           : at == LCP_AT_UPPER ? isfinite(high) && high > low
+                                : high > low;
+}
+
 /* Where y_i may lie: y_i w_i >= 0 for every w_i that side and bounds allow. */
 static interval of_multiplier(lcp_side side, double low, double high)
 {

@@ -13,6 +13,9 @@ typedef enum {
     LCP_LEFT_OUT  /* z_i = lower_i, w_i any number */
 } lcp_side;
 
+/* 1: the bounds (n each, or NULL) allow z_i to be there. */
+int rb_lcp_is_place(const double *lower, const double *upper, int i, lcp_side at);
+
 /* y_i, or the nearest number with y_i w_i >= 0 for every w_i that side and bounds allow. */
 double rb_lcp_multiplier(lcp_side side, double low, double high, double y);
 

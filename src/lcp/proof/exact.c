@@ -1,6 +1,6 @@
 /* Whether the point of a basis solves a problem as its numbers stand: z and w are enclosed as in
  * docs/proof.md, and where an enclosure holds zero residues tell whether the number is zero. */
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/exact.h"
 #include "lcp/proof/bounds.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * elimination makes no rounding errors.  A determinant that is not zero modulo one prime is not
  * zero at all: that is proved.  One that is zero modulo both primes, of 61 bits each, is taken for
  * zero; it would have to be a multiple of both. */
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/exact.h"
 
 #include <math.h>
 #include <stdint.h>

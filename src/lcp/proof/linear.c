@@ -1,5 +1,5 @@
 /* Linear programs under an LCP, by GLPK's simplex methods. */
-#include "lcp/portfolio/linear.h"
+#include "lcp/proof/linear.h"
 
 #include <glpk.h>
 
