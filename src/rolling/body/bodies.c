@@ -30,6 +30,12 @@ static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *
     return rb_memory_check(rb_rolling_bytes(rc, mesh->n, 0, 2 * mesh->n), what, why);
 }
 
+static rb_status or_no_memory(rb_status s, int n, rb_message *why)
+{
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the flexibility of %d elements", n)
+                          : s;
+}
+
 /* The third body (4.10) gives way under the traction of its own element alone: a diagonal. */
 static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f)
 {
@@ -143,9 +149,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
         s = add_transforms(rc, mesh, bodies, why);
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
-               : s;
+    return or_no_memory(s, mesh->n, why);
 }
 
 rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far_field *far,
@@ -170,9 +174,7 @@ rb_status rb_rolling_bodies_near(const rb_rolling_case *rc, const rb_rolling_far
     bodies->seconds_condense = rb_seconds() - start;
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
-               : s;
+    return or_no_memory(s, mesh->n, why);
 }
 
 rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -189,7 +191,5 @@ rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_roll
         stored->F = rb_bem_flexibility_stored(&stored->f);
         s = add_transforms(rc, mesh, stored, why);
     }
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
-               : s;
+    return or_no_memory(s, mesh->n, why);
 }
