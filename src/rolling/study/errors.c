@@ -540,7 +540,10 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
 {
     sample run[RB_ERROR_RUNS] = {0}, another = {0};
     rb_message reason = {.text = ""};
-    const int runs = rb_rolling_error_runs(rc), patches = own->solution.patches;
+    /* a convex body touches in one place: an element that opens or closes beside an edge makes no
+     * patch of its own */
+    const int runs = rb_rolling_error_runs(rc),
+              patches = rb_rolling_is_convex(rc) ? 1 : own->solution.patches;
     rb_status status = RB_OK;
 
     for (int k = 0; k < runs && status == RB_OK; k++) {
