@@ -71,6 +71,9 @@ rb_status rb_bem_flexibility_stretch(rb_bem_flexibility *f, const double *ends, 
 
     if (!rb_bem_flexibility_stored(f))
         return RB_EINVAL;
+    /* Under lengths times s half-planes deform in the same shape, s times as much under the same
+     * traction, but for the logarithm: ln(s x) = ln s + ln x adds a constant, by the length of the
+     * loaded element, to the displacements in its direction. */
     rb_bem_flexibility_place(ends, f);
     for (int j = 0; j < 2 * f->n; j++, F += 2 * m) {
         double *direct = j < f->n ? F : F + m, *coupled = j < f->n ? F + m : F;

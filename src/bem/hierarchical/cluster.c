@@ -1,4 +1,7 @@
-/* A binary tree of clusters: elements are ordered by halving boxes at their median. */
+/* A binary tree of clusters: elements are ordered by halving boxes at their median.  Halves have
+ * equally many elements, however graded the mesh is, so that the tree is balanced and a cluster is
+ * a range of the order; halving the longer side keeps boxes round, so that clusters are soon far
+ * from each other compared with their size. */
 #include "bem/hierarchical/cluster.h"
 #include "base/blas.h"
 

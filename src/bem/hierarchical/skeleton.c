@@ -1,4 +1,6 @@
-/* QR with column pivoting, in blocks by LAPACK, until what is left is below the tolerance. */
+/* QR with column pivoting, in blocks by LAPACK, until what is left is below the tolerance: K P =
+ * Q [R_1 R_2].  The columns chosen are Q R_1, and the others Q R_2 = (Q R_1) R_1^-1 R_2: they are
+ * the chosen ones times T = R_1^-1 R_2. */
 #include "bem/hierarchical/skeleton.h"
 
 #include <cblas.h>
@@ -72,6 +74,7 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 
 rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T)
 {
+    /* X = R_1^-1 R_2, in the order of the pivots. */
     const int others = s->columns - kept, used = kept < s->rank ? kept : s->rank;
     const size_t ld = (size_t)s->ld;
     rb_arena scratch = {0};

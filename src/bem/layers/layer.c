@@ -52,6 +52,16 @@ static rb_bem_layer_kernel under(const rb_bem_layer_remainder *k, double x, cons
     return e;
 }
 
+/* Adds what the strip does at a point, to the point's entries of two columns, of u_N and m rows
+ * below of u_T: under pressure and under friction.  The coupling is odd in x: its signs differ. */
+static void add_at(rb_bem_layer_kernel e, double *pressure, double *friction, size_t m)
+{
+    pressure[0] += e.of[0];
+    pressure[m] -= e.of[2];
+    friction[0] += e.of[2];
+    friction[m] += e.of[1];
+}
+
 /* ---- Of a period --------------------------------------------------------------------- */
 
 /* Beyond, exp(-al) is rounding: the waves of a period that feel the base. */
@@ -92,7 +102,8 @@ static rb_status waves_of_period(const rb_bem_surface *body, period_waves *w)
     return w->Z ? RB_OK : RB_ENOMEM;
 }
 
-/* As `under`. */
+/* As `under`: a wave over x, averaged over the point's strip.  exp(i k x) of each wave is the one
+ * before it, turned once more. */
 static rb_bem_layer_kernel under_waves(const period_waves *w, double L, double x,
                                        const double ends[2])
 {
@@ -122,14 +133,9 @@ static rb_status add_period(const rb_bem_surface *body, int points, const double
 
 #pragma omp parallel for schedule(static) if ((double)points * n > rb_pairs_for_threads)
     for (size_t j = 0; j < (s == RB_OK ? columns : 0); j++) {
-        double *pressure = W + j * 2 * m, *friction = W + (j + columns) * 2 * m;
-        for (size_t i = 0; i < m; i++) {
-            const rb_bem_layer_kernel e = under_waves(&w, body->period, x[i], ends + j);
-            pressure[i] += e.of[0];
-            pressure[i + m] -= e.of[2];
-            friction[i] += e.of[2];
-            friction[i + m] += e.of[1];
-        }
+        for (size_t i = 0; i < m; i++)
+            add_at(under_waves(&w, body->period, x[i], ends + j), W + i + j * 2 * m,
+                   W + i + (j + columns) * 2 * m, m);
     }
     free(w.Z);
     return s;
@@ -165,14 +171,8 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, con
         return s;
 #pragma omp parallel for schedule(static) if ((double)points * n > rb_pairs_for_threads)
     for (size_t j = 0; j < columns; j++) {
-        double *pressure = W + j * 2 * m, *friction = W + (j + columns) * 2 * m;
-        for (size_t i = 0; i < m; i++) {
-            const rb_bem_layer_kernel e = under(&k, x[i], ends + j);
-            pressure[i] += e.of[0];
-            pressure[i + m] -= e.of[2];
-            friction[i] += e.of[2];
-            friction[i + m] += e.of[1];
-        }
+        for (size_t i = 0; i < m; i++)
+            add_at(under(&k, x[i], ends + j), W + i + j * 2 * m, W + i + (j + columns) * 2 * m, m);
     }
     rb_bem_layer_table_release(k.table);
     return RB_OK;

@@ -69,6 +69,8 @@ static rb_status solve_beside_sliding(rb_rolling_model *model, const rb_rolling_
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                  rb_rolling_model *model, rb_message *why)
 {
+    /* Bodies on the same equal elements are the dearest part of a case: they stay where `build`
+     * finds the same ends. */
     rb_rolling_model kept = {.plan = plan ? *plan : rb_rolling_plan_of(rc)};
     const int equal = model->rc && model->rc->mesh == RB_MESH_UNIFORM;
 
@@ -178,6 +180,7 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage, rb
 
     if (s != RB_OK)
         return s;
+    /* Q = 0 is given and xi unknown (K6). */
     problem.force_given = 1;
     problem.force = problem.force_ratio = problem.axle = 0.0;
     memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Two peaks that differ by less than this part are equal. */
 static const double SAME = 1e-9;
 
 void rb_rolling_cycle_free(rb_rolling_cycle *c)
@@ -37,7 +38,8 @@ static rb_rolling_peak peak_of(int n, const double *x, const double *value)
     return best;
 }
 
-/* SWT at a place of a body. */
+/* Smith, Watson and Topper's parameter at a place of a body: largest tension times amplitude of the
+ * strain along the surface. */
 static double swt_at(const rb_rolling_cycle *c, int body, int k)
 {
     return fmax(rb_rolling_cycle_extreme(c, body, RB_CYCLE_TENSION)[k], 0.0) * 0.5 *
@@ -57,6 +59,7 @@ static void set_body(const rb_rolling_cycle *c, int body, const double *ruiz_1, 
     }
 }
 
+/* Also at the edges of the contact, where the tension behind it peaks between midpoints. */
 static rb_rolling_peak swt_peak(const rb_rolling_cycle *c, int body, const rb_rolling_solution *s)
 {
     rb_rolling_peak best = peak_of(s->n, s->x, body ? s->swt_b : s->swt);

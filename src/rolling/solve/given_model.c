@@ -8,7 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Resultants, largest traction and half-width. */
+/* Resultants, largest traction and half-width; integrals of tractions linear between nodes,
+ * exactly.
+ */
 static void set_totals(const rb_bem_edge_load *load, rb_rolling_solution *s)
 {
     double most_p = 0.0, most_q = 0.0;
@@ -52,7 +54,8 @@ static rb_status begin_given(const rb_rolling_case *rc, int n, rb_rolling_model 
     return model->mesh.ends ? RB_OK : RB_ENOMEM;
 }
 
-/* Two nodes at a place where the tractions are not zero outside. */
+/* The rows, and where the outermost ones are not zero a second node of zero at their place: the
+ * tractions jump there. */
 static rb_status set_nodes(int n, const double *x, const double *p, const double *q,
                            rb_rolling_given *g)
 {

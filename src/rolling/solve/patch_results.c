@@ -8,8 +8,9 @@
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 
-/* Whether an element is one of the last two that stick, or the first that slips, at a limit of
- * stick whose pressure is known otherwise: they err by what they do not show beside it. */
+/* Whether an element is one of the last two that stick, or of the first that slip, at a limit of
+ * stick.  Their pressures are disturbed, because the kink at the limit lies inside an element; that
+ * of the limit itself is known by (E4). */
 static int is_beside_limit(const rb_rolling_case *rc, const rb_rolling_tractions *of, int i)
 {
     rb_rolling_stick_limit limit;
