@@ -417,7 +417,7 @@ TEST(every_long_call_can_be_stopped)
 
     for (size_t k = 0; k < sizeof jobs / sizeof *jobs; k++) {
         const job *j = &jobs[k];
-        if (only ? !strstr(j->name, only) : !is_in_turn((int)k, 4))
+        if (only ? !strstr(j->name, only) : !is_in_turn((int)k, 8))
             continue;
         held_api *a = NOT_NULL(rb_api_create_for(j->purpose));
         give(a, j->options);
@@ -560,7 +560,7 @@ TEST(a_call_may_be_stopped_at_any_question)
     for (size_t k = 0; k < sizeof small / sizeof *small; k++) {
         const job *j = &small[k];
         questions q = {.at = -1};
-        if (only ? !strstr(j->name, only) : !is_in_turn((int)k, 4))
+        if (only ? !strstr(j->name, only) : !is_in_turn((int)k, 8))
             continue;
         held_api *first = begun(j); /* tables of layers, which the process keeps, ask once */
         ask(first, j, &q);

@@ -383,14 +383,15 @@ TEST(coupled)
     CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 3e-3, "far away");
     /* steady contacts of so many elements are solved without a matrix */
     double largest[2];
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2 && is_in_turn(0, 4); k++) {
         held_json *one =
             run_json(k ? HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
                                "--formulation steady"
                        : HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled");
         largest[k] = in_summary(one, "K_II_max");
     }
-    CHECK_REL(largest[1], largest[0], 1e-9, "K_II max");
+    if (is_in_turn(0, 4))
+        CHECK_REL(largest[1], largest[0], 1e-9, "K_II max");
     check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64, "rigid");
     check_refused(HERTZ "--mu 0.1 --coupled", 64, "--mu 0");
     check_refused(HERTZ "--mu 0 --coupled --fluid trapped", 64, "without fluid");
@@ -571,6 +572,8 @@ TEST(studies)
     json_t *study = run_json(VARIED "--units inch --error --jobs 2");
     const json_t *table = json_object_get(study, "table");
     for (size_t k = 0; k < 4; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         snprintf(line, sizeof line,
                  "crack cracks.ini --units inch --error --crack-length %g --crack-angle %d",
                  k < 2 ? 0.5 : 1.0, k % 2 ? 60 : 30);

@@ -689,6 +689,7 @@ TEST(given_outer_elements_have_bars)
 /* --accuracy refines what needs it, here the boundary. */
 TEST(accuracy_is_that_of_the_boundary_too)
 {
+    IN_TURN(2, 4);
     rb_rolling_case rc = with(thin_rim(), "contact-elements 24");
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;

@@ -226,9 +226,12 @@ TEST(contacts_in_any_units_are_solved)
 TEST(no_mu_hides_a_penetration)
 {
     static const double all[] = {1.0, 1e4, 1e8, 1e9, 1e10, 1e12, 1e14, 1e100, 1e300};
-    int count, solved = 0;
+    int count, solved = 0, trials = 0;
     const rb_friction_solver *solvers = rb_friction_solvers(&count);
     for (int trial = 0; trial < 18; trial++) {
+        if (!is_in_turn(trial / 2, 3))
+            continue;
+        trials++;
         const int d = 2 + trial % 2, m = 2 * d;
         const double mu = all[trial / 2];
         OWNED(rb_friction_problem) p = zero_local(d, 2);
@@ -259,7 +262,7 @@ TEST(no_mu_hides_a_penetration)
             }
         }
     }
-    assert_true(solved > 120);
+    assert_true(18 * solved > 120 * trials);
 }
 
 /* A contact that is a million times lighter than its neighbours, and penetrates by two

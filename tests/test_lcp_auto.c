@@ -52,6 +52,8 @@ TEST(every_claim_is_true)
         for (int o = 0; o < largest; o++)
             for (int e = 0; e < 3; e++) {
                 lcp_family f, scaled;
+                if (!is_in_turn(kind + o + e, 3))
+                    continue;
                 assert_int_equal(lcp_family_create(kind, orders[o] + 7, &f), RB_OK);
                 assert_int_equal(lcp_family_create(kind, orders[o] + 7, &scaled), RB_OK);
                 SCRATCH double *column = malloc((size_t)f.n * sizeof *column);

@@ -175,7 +175,7 @@ TEST(wear_has_error_bars)
 /* Late: p = P/(2b) and V = 2 b^3/(3R), from any number of steps. */
 TEST(cylinder_wears_to_uniform_pressure)
 {
-    const rb_rolling_case rc = cylinder(80, 0.0); /* the zone grows with the scar */
+    const rb_rolling_case rc = cylinder(50, 0.0); /* the zone grows with the scar */
     const rb_rolling_wear wear = sliding(&rc, 400.0, 40);
     worn w = run(&rc, &wear);
     const int last = w.h.n - 1;

@@ -234,6 +234,8 @@ TEST(certificates_know_the_body)
         "--load 1000 --creep 1e-3 --formulation steady --contact-elements 24"};
     for (int k = 0; k < 2; k++) {
         char line[700];
+        if (!is_in_turn(k, 2))
+            continue;
         snprintf(line, sizeof line,
                  "\"$R\" stress %s --body b --grid 4x3 --json --quiet --output b.json && "
                  "\"$R\" check b.json",

@@ -27,6 +27,8 @@ TEST(the_tension_behind_a_contact_is_2_mu_p0)
         for (int k = 0; k < 2; k++)
             for (int slides = 0; slides < 2; slides++) {
                 char line[400];
+                if (!is_in_turn(m + 2 * k + slides, 4))
+                    continue;
                 snprintf(line, sizeof line,
                          "stress " STEEL "--half-width 1 --grid 2x2 --mesh %s "
                          "--contact-elements %d %s",
@@ -76,14 +78,16 @@ TEST(a_wheel_slides_as_a_half_plane)
  * that on shorter ones, and no element far away has more. */
 TEST(covers_have_no_elements_around_them)
 {
-    held_json *root =
-        run_json("stress --young-b 2500 --poisson-b 0.3 --support hub --support-b halfplane --gap "
-                 "parabola --young 2500 --poisson 0.3 --radius 50 --half-width "
-                 "0.05 --mu 0.3 --formulation steady --creep 0.01 "
-                 "--contact-elements 50 --cover-thickness 10 --core-young 2500 "
-                 "--core-poisson 0.3 --grid 2x2");
-    CHECK_REL(largest(root, "tension", "value"),
-              0.6 * number_in(json_object_get(root, "summary"), "max_pressure"), 5e-3, "2 mu p0");
+    if (is_in_turn(0, 3)) {
+        held_json *root = run_json(
+            "stress --young-b 2500 --poisson-b 0.3 --support hub --support-b halfplane --gap "
+            "parabola --young 2500 --poisson 0.3 --radius 50 --half-width 0.05 --mu 0.3 "
+            "--formulation steady --creep 0.01 --contact-elements 50 --cover-thickness 10 "
+            "--core-young 2500 --core-poisson 0.3 --grid 2x2");
+        CHECK_REL(largest(root, "tension", "value"),
+                  0.6 * number_in(json_object_get(root, "summary"), "max_pressure"), 5e-3,
+                  "2 mu p0");
+    }
     static const struct {
         const char *elements;
         double most;
@@ -219,7 +223,8 @@ TEST(a_bond_has_two_sides_in_any_unit)
     "--base-young 200GPa --base-poisson 0.3 --load 5kN/mm --contact-elements 30 --grid 2x2 "
     if (shell("\"$R\" " STIFF_BASE "--json --quiet --output bond.json && \"$R\" check bond.json"))
         fail_msg("%s%s", out, err);
-    held_json *mm = run_json(STIFF_BASE), *si = run_json(STIFF_BASE "--units si");
+    held_json *mm = NOT_NULL(json_load_file("bond.json", 0, NULL));
+    held_json *si = run_json(STIFF_BASE "--units si");
     const json_t *one = json_object_get(json_object_get(mm, "maxima"), "tension"),
                  *other = json_object_get(json_object_get(si, "maxima"), "tension");
     assert_string_equal(json_string_value(json_object_get(one, "material")), "base");

@@ -85,7 +85,9 @@ TEST(a_bonded_punch)
 {
     static const double rows[][2] = {{0.3, 0.123018}, {0.45, 0.126897}};
     write_square(1.0);
-    for (size_t k = 0; k < 2; k++) {
+    for (int k = 0; k < 2; k++) {
+        if (!is_in_turn(k, 2))
+            continue;
         held_json *root = run_jsonf(SQUARE "--young %.15g --poisson %g --mu 1e6 --force 0 "
                                            "--contact-elements 100 --moment 0.1",
                                     1.0 - rows[k][0] * rows[k][0], rows[k][0]);
