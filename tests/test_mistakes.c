@@ -72,6 +72,7 @@ static const struct {
     {"curve --from 1 --to 1", "expected two different values"},
     {"sweep", "a study needs --vary-1 or --cases"},
     {"lcp", "expected at least one FILE"},
+    {"--mu 0,3", "expected one number, with a decimal point, got 0 and 3; a curve takes several"},
     {"example wheel", "expected bar, truss, wall or a name"},
     {"--units metric", "mm, si or inch"},
 };
@@ -414,6 +415,8 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp game.txt --label 1", "only with --game and without --all"},
         {64, "lcp game.txt --game --all --label 1", "only with --game and without --all"},
         {65, "lcp colour.txt --output t.tsv", "colour.txt:1: n: expected an integer >= 0"},
+        {65, "lcp cut.json --output t.tsv", "cut.json:1: expected numbers as text, got JSON"},
+        {65, "friction cut.json --output t.tsv", "cut.json:1: expected numbers as text, got JSON"},
         {64, "compare --solvers nothing one.txt", "no friction solver is called 'nothing'"},
         {65, "friction one.txt --output t.tsv",
          "one.txt:4: size at the head: expected an integer >= 0"},

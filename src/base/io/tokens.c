@@ -36,6 +36,9 @@ void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
         t->path = "standard input";
     t->at = t->text;
     t->end = t->text ? t->text + size : NULL;
+    /* What other programs, and our own results, are often written in. */
+    if (t->text && t->text[strspn(t->text, " \t\r\n")] == '{')
+        rb_io_tokens_fail(t, "expected numbers as text, got JSON");
 }
 
 void rb_io_tokens_close(io_tokens *t)

@@ -104,8 +104,12 @@ rb_status rb_case_check_purpose(const rb_case *c, rb_message *why)
     const rb_rolling_formulation formulation = c->resolved.rc.formulation;
     const rb_numbers *mus = &c->resolved.mus;
     /* 0,3 is read as 0 and 3. */
-    const int comma = mus->n == 2 && mus->value[0] == floor(mus->value[0]) &&
-                      mus->value[1] == floor(mus->value[1]);
+    char one_mu[120] = "expected one number; a curve takes several";
+    if (mus->n == 2 && mus->value[0] == floor(mus->value[0]) &&
+        mus->value[1] == floor(mus->value[1]))
+        snprintf(one_mu, sizeof one_mu,
+                 "expected one number, with a decimal point, got %g and %g; a curve takes several",
+                 mus->value[0], mus->value[1]);
     const rb_case_rule rules[] = {
         {curve && formulation != RB_STEADY, "formulation", steady_only},
         {c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT, "formulation",
@@ -117,9 +121,7 @@ rb_status rb_case_check_purpose(const rb_case *c, rb_message *why)
         {c->resolved.rc.gap == RB_GAP_WAVE, "radius",
          "that of a wave's crest follows from --period and --amplitude"},
         {c->purpose == RB_CASE_DESIGN && formulation == RB_TRANSIENT, "formulation", no_steps},
-        {!curve && mus->n > 1, "mu",
-         comma ? "expected one number, with a decimal point; a curve takes several"
-               : "expected one number; a curve takes several"},
+        {!curve && mus->n > 1, "mu", one_mu},
         {rb_rolling_slides_on_base(&c->resolved.rc), "history",
          "not on a smooth base: nothing holds the layer from step to step"},
         {rb_case_has_steps(&c->resolved), "accuracy",
