@@ -58,9 +58,7 @@ static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
     return RB_OK;
 }
 
-/* A + the matrix B of a body that lies below (4.5).  Mirrored at the contact it keeps N, and T
- * changes its sign: the diagonal blocks stay, F_NT and F_TN come with a minus, so that identical
- * bodies lose their coupling. */
+/* A + the matrix B of a body below, which is in its own, mirrored frame (pair.c). */
 void rb_bem_add_mirrored_columns(int n, int m, const double *B, double *A, int lda)
 {
     const size_t rows = 2 * (size_t)m;

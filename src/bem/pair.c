@@ -68,10 +68,12 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
     memset(f, 0, sizeof *f);
     if (a->n < 1 || a->n != b->n)
         s = rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B", a->n, b->n);
+    /* F_A + F_B makes sense only at the same points. */
     for (int i = 0; s == RB_OK && i < a->m; i++)
         if (!(fabs(a->x[i] - b->x[i]) <= 1e-9 * a->h[i]))
             s = rb_fail(why, RB_EINVAL, "bodies in contact: point %d at x = %g on A, %g on B", i,
                         a->x[i], b->x[i]);
+    /* Two matrices, or two operators of one kind, are added once; else each product takes two. */
     if (s == RB_OK && a->add_mirrored && a->add_mirrored(a, b)) {
         add_mirrored(a->m, b->w0, a->w0);
         *f = *a;

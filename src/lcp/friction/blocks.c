@@ -39,6 +39,8 @@ static int next_block(reader *s, double *block)
     if (s->local->form != RB_FRICTION_LOCAL_DENSE) {
         const rb_sparse *w = &s->local->Ws;
         const int d = s->d;
+        /* A merge of d sorted columns: the least row that one of them has left, or the diagonal,
+         * which solvers ask for also where W has no entry. */
         int first = s->diagonal;
         for (int b = 0; b < d; b++)
             if (s->at[b] < s->end[b] && w->i[s->at[b]] < first)
@@ -120,6 +122,7 @@ void rb_friction_blocks_add(const rb_friction_blocks *b, int contact, const doub
     const int first = b->p[contact], end = b->p[contact + 1];
     const double x0 = x[0], x1 = x[1];
     if (b->d == 2) {
+        /* The blocks of a column follow each other; without a loop over d. */
         const double *w = b->x + 4 * (size_t)first;
         for (int k = first; k < end; k++, w += 4) {
             double *yi = y + 2 * b->i[k];

@@ -1,4 +1,7 @@
-/* The nonsmooth functions of *Acary*, section 2, and Fischer-Burmeister on the cones. */
+/* The nonsmooth functions of *Acary*, section 2, and Fischer-Burmeister on the cones.  F(r, u) = 0
+ * is Coulomb's law of one contact in each of them; they differ in what they are far from it, and so
+ * in where Newton's method goes.  A and B are one element of the generalised Jacobian: at a kink
+ * the derivative of one side. */
 #include "lcp/friction/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -59,6 +62,7 @@ static int tangential_part(const rb_friction_cone *cone, double radius, const do
     return 1;
 }
 
+/* The disc has the radius of the pressure that is projected, max(0, r_N - rho u_N). */
 void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r, const double *u,
                                const rb_friction_linearised *at)
 {
@@ -72,6 +76,7 @@ void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r, co
     }
 }
 
+/* The disc has the radius of the pressure of the iterate, max(0, r_N). */
 void rb_friction_jean_moreau(const rb_friction_cone *cone, const double *r, const double *u,
                              const rb_friction_linearised *at)
 {
@@ -114,6 +119,7 @@ static double common_rho(const rb_friction_cone *cone)
     return cone->d / (1.0 / cone->rho_n + (cone->d - 1) / cone->rho_t);
 }
 
+/* F = r - P_K(r - rho uhat), the projection on the whole cone at once; A = I - D, B = rho D G. */
 void rb_friction_natural_map(const rb_friction_cone *cone, const double *r, const double *u,
                              const rb_friction_linearised *at)
 {

@@ -1,7 +1,4 @@
-/* The linear system of one Newton step.  At each contact the methods of *Acary* 4 linearise one
- * equation F(r, u) = 0, B du + A dr = -F.  Local form (system_local.c): du = W dr makes it
- * (B W + A) dr = -F.  Global form (here): dv stays unknown, du = H' dv, with the balance of forces:
- *     [K  -H; B H'  A] (dv, dr) = (-e, -F),  e = K v - H r - f,
+/* The linear system of one Newton step (internal.h): what both forms share, and the global form,
  * which is sparse where W = H' K^-1 H is full. */
 #include "lcp/friction/internal.h"
 

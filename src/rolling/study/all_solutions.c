@@ -79,6 +79,8 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     rb_rolling_contact_edges(rc, &model->mesh, &model->state, &from, &to);
     for (int i = 0; i < model->state.n && places < MOST; i++)
         places += model->state.zone[i] != RB_ZONE_SEPARATED;
+    /* (F5) Starts whose slip zone ends at each element in turn: branches of one case differ by
+     * where stick ends.  What fails from one start may be found from the next. */
     for (int k = 0; k <= places && s == RB_OK; k++) {
         rb_message reason = {.text = ""};
         s = rb_rolling_law_start(model, from + (to - from) * k / fmax(places, 1), why);
