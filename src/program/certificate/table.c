@@ -38,11 +38,12 @@ static json_t *words_of(const char *line, size_t n)
     json_t *words = json_array();
     char word[200];
 
-    for (size_t i = 0; i < n; i += strcspn(line + i, " \n")) {
+    for (size_t i = 0, length; i < n; i += length) {
         i += strspn(line + i, " ");
-        const size_t length = strcspn(line + i, " \n");
-        if (i >= n || length == 0)
+        if (i >= n)
             break;
+        length = strcspn(line + i, " \n");
+        length = length < n - i ? length : n - i;
         char *end;
         snprintf(word, sizeof word, "%.*s", (int)length, line + i);
         const double x = rb_read_number(word, &end);
@@ -70,7 +71,8 @@ static rb_status tree_of(const char *name, const char *text, json_t **tree, rb_m
     }
     for (const char *line = text; s == RB_OK && line && *line;) {
         const char *end = strchr(line, '\n');
-        const size_t n = end ? (size_t)(end - line) : strlen(line);
+        size_t n = end ? (size_t)(end - line) : strlen(line);
+        n -= n > 0 && line[n - 1] == '\r'; /* of an editor on Windows, at the end alone */
         if (*line == '#')
             rb_report_json_append(&comments, words_of(line, n));
         line = end ? end + 1 : NULL;
