@@ -598,7 +598,7 @@ TEST(waiting_is_told_on_a_terminal)
         "until ! grep -q '^State:.[^Z]' /proc/$p/status; do "
         "if grep -q '^SigCgt:" ALARM "; then : >\"listens$quiet\"; kill -STOP $p; "
         "for k in $(seq 200); do grep -q '^ShdPnd:" ALARM " && break; sleep 0.05; done; "
-        "kill -CONT $p; break; fi; done; "
+        "kill -CONT $p; break; fi; sleep 0.02; done; "
         "wait $p";
     if (shell("command -v script") != 0)
         skip();

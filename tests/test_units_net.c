@@ -459,7 +459,7 @@ TEST(every_line_is_the_same_in_every_system)
     char text[2500];
     int all_right = 1;
     for (int k = 0; k < LINES; k++) {
-        if (!is_in_turn(k, 6))
+        if (!is_in_turn(k, 8))
             continue;
         write_line(lines[k], RB_UNITS_MM, PLAIN, text, sizeof text);
         held_json *mm = run_line(text, RB_UNITS_MM);
