@@ -92,6 +92,13 @@ TEST(status_words_say_what_is_known)
         {"2 1 -.99999999999 -.99999999999 1 -1 -1", "--solver lemke", "solved", 0},
         {"2 1 -.99999999999999 -.99999999999999 1 -1 -1", "--all", "solved by enumeration", 0},
         {"2 1 -1 -1 1 -1 -1", "--all", "no solution", 1},
+        /* what is proved counts, whatever the method has found */
+        {"2 -2 -2 0 1 1 -2", "--solver lemke", "secondary-ray", 1},
+        {"2 -2 -2 0 1 1 -2", "--solver lemke --prove", "no-solution", 1},
+        {"2 1 -1 -1 1 -1 -1", "--solver newton --prove", "no-solution", 1},
+        {"2 -1 1 2 0 -1 -2", "--solver lemke", "secondary-ray", 1},
+        {"2 -1 1 2 0 -1 -2", "--solver lemke --prove", "solved", 0},
+        {turned, "--solver lemke --prove", "secondary-ray", 1},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char arguments[200], said[60];
@@ -415,6 +422,12 @@ TEST(solutions_are_proved)
     CHECK_RUN(lcp("--prove large"), 1, err, "large: not proved: z is not finite");
     CHECK_RUN(lcp("--prove --json large"), 1, out, "\"reason\": \"z is not finite\"");
     CHECK_RUN(lcp("--prove --json ray"), 1, out, "\"status\": \"no solution\"");
+    /* Lemke's last z has a wrong sign, which the proof exchanges: z = (1, 2). */
+    write_file("p", "2 -1 1 2 0 -1 -2");
+    CHECK_RUN(lcp("--prove --solver lemke --solution --header bare p"), 0, out, "\np\t1\t1\t0\t");
+    assert_non_null(strstr(out, "\np\t2\t2\t0\t"));
+    assert_non_null(strstr(err, "p: note: lemke found no solution (secondary ray); the proof found "
+                                "this one from its last z"));
 }
 
 /* Of every example; of several, none, and infinitely many. */

@@ -197,6 +197,19 @@ def test_absence_is_proved():
     assert none.value.solution.proof["least_sum"] == np.inf
 
 
+def test_status_and_proof_agree():
+    found = rollbem.lcp(np.array([[-1.0, 1.0], [2.0, 0.0]]), [-1.0, -2.0], "lemke", prove=True)
+    assert found.status == "solved" and found.proof["proved"]  # Lemke's method ends on a ray
+    np.testing.assert_array_equal(found.z, [1.0, 2.0])
+    np.testing.assert_array_equal(found.w, [0.0, 0.0])
+    assert found.residual == found.scaled_residual == 0.0
+    M, q = np.array([[1.0, -1.0], [-1.0, 1.0]]), [-1.0, -1.0]
+    for solver in "lemke", "newton":
+        with pytest.raises(rollbem.Unsolved) as none:
+            rollbem.lcp(M, q, solver, prove=True)
+        assert none.value.solution.status == "no solution", solver
+
+
 def only_solution(A, b):
     """Of A x = b in fractions; None: there is none, or more than one."""
     rows, n = [[*row, x] for row, x in zip(A, b)], len(A[0]) if A else 0

@@ -103,6 +103,13 @@ rb_status rb_lcp_prove_absence(const rb_lcp_mixed_problem *p, rb_lcp_proof *proo
  * proved to exist; proof->least_sum. */
 rb_status rb_lcp_prove_or_exclude(const rb_lcp_mixed_problem *p, const double *z,
                                   rb_lcp_proof *proof);
+/* The same of the answer of a solver, which ended with *ended and z, so that both say the same:
+ * where the solver found no solution and the proof, which exchanges wrong signs, has found one from
+ * its last iterate, z becomes that one and *ended RB_OK; where a solution is excluded *ended
+ * becomes RB_NO_SOLUTION, and why says so.  A z that solves the problem to the solver's tolerance
+ * stays RB_OK in any case. */
+rb_status rb_lcp_prove_answer(const rb_lcp_mixed_problem *p, double *z, rb_status *ended,
+                              rb_lcp_proof *proof, rb_message *why);
 
 /* definite: 1: x'D A x > 0 is proved for all x other than zero, D = diag(d), for A (n x n,
  * column-major) and all matrices whose entries differ from it by at most 8 units of rounding, and

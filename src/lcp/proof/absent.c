@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Unknowns of the linear program at most. */
 enum { MOST_UNKNOWNS = 400 };
@@ -70,4 +71,22 @@ rb_status rb_lcp_prove_or_exclude(const rb_lcp_mixed_problem *p, const double *z
     const rb_status s = rb_lcp_prove(p, z, proof);
     const rb_status absence = s == RB_UNDECIDED ? rb_lcp_prove_absence(p, proof) : RB_OK;
     return absence == RB_OK ? s : absence;
+}
+
+rb_status rb_lcp_prove_answer(const rb_lcp_mixed_problem *p, double *z, rb_status *ended,
+                              rb_lcp_proof *proof, rb_message *why)
+{
+    rb_status s = rb_lcp_prove_or_exclude(p, z, proof);
+
+    if (*ended == RB_OK)
+        return s;
+    if (s == RB_OK) {
+        /* Proved again, for the distance of the new z from the solution. */
+        memcpy(z, proof->z, sizeof *z * (size_t)proof->n);
+        rb_lcp_proof_free(proof);
+        s = rb_lcp_prove(p, z, proof);
+        *ended = RB_OK;
+    } else if (s == RB_UNDECIDED && isinf(proof->least_sum) && *ended != RB_NO_SOLUTION)
+        *ended = rb_fail(why, RB_NO_SOLUTION, "lcp: there is no solution, as the proof shows");
+    return s;
 }

@@ -147,8 +147,14 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     a->why = info.msg;
     if (s >= 0 && s != RB_INTERRUPTED && a->proves) {
         rb_lcp_proof proof;
+        const rb_status found = s;
         const rb_status proved =
-            keep_proof(a, "lcp", rb_lcp_prove_or_exclude(&problem, z->at, &proof), &proof);
+            keep_proof(a, "lcp", rb_lcp_prove_answer(&problem, z->at, &s, &proof, &a->why), &proof);
+        int row;
+        if (found != RB_OK && s == RB_OK) { /* z is the one of the proof */
+            a->residual = rb_lcp_residual_mixed(&problem, z->at, w->at);
+            s = rb_lcp_scaled_residual(&problem, z->at, &info.scaled, &row);
+        }
         s = proved == RB_OK ? s : proved;
     }
     s = rb_api_call_ends(a, s);

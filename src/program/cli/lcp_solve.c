@@ -36,20 +36,22 @@ cli_exit cli_lcp_invalid(lcp_result *r, rb_status s, const rb_message *msg)
     return cli_lcp_failed(r, s == RB_EINVAL ? RB_EFORMAT : s, &why);
 }
 
+/* A solution of the method whose residual is above the tolerance, and above rounding, is none. */
+static rb_status judged(const lcp_options *o, lcp_result *r, rb_status s)
+{
+    if (s != RB_OK || r->info.scaled <= fmax(o->tol, ROUNDING))
+        return s;
+    return rb_fail(&r->info.msg, RB_INACCURATE,
+                   "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
+                   r->info.scaled, o->tol);
+}
+
 /* "solved" is what the recomputed residual says, not the method. */
 cli_exit cli_lcp_end(const lcp_options *o, lcp_result *r, rb_status s)
 {
-    cli_exit code = s == RB_OK ? CLI_OK : CLI_UNSOLVED;
-    r->status = rb_status_text(s);
-    if (s == RB_OK && r->info.scaled > o->tol && r->info.scaled <= ROUNDING)
-        r->status = "solved-to-rounding";
-    else if (s == RB_OK && !(r->info.scaled <= o->tol)) {
-        code = CLI_UNSOLVED;
-        r->status = rb_status_text(RB_INACCURATE);
-        rb_fail(&r->info.msg, RB_INACCURATE,
-                "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
-                r->info.scaled, o->tol);
-    }
+    s = judged(o, r, s);
+    const cli_exit code = s == RB_OK ? CLI_OK : CLI_UNSOLVED;
+    r->status = s == RB_OK && r->info.scaled > o->tol ? "solved-to-rounding" : rb_status_text(s);
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file,
                  o->max_pivots ? o->max_pivots : r->info.iters);
@@ -194,6 +196,31 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 
 /* ---- A problem --------------------------------------------------------------------- */
 
+/* What rounding could leave and what z does leave, of the solver's z or of the proof's. */
+static rb_status find_residuals(lcp_result *r)
+{
+    r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
+    r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
+    return rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) == RB_OK
+               ? RB_OK
+               : rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+}
+
+/* The status and what is proved agree.  found: of the solver. */
+static cli_exit end_with_proof(const lcp_options *o, lcp_result *r, rb_status found)
+{
+    rb_status ended = judged(o, r, found);
+    const rb_status before = ended,
+                    proved = rb_lcp_prove_answer(&r->boxed, r->z, &ended, &r->proof, &r->info.msg);
+    if (before != RB_OK && ended == RB_OK) {
+        if (find_residuals(r) != RB_OK)
+            return cli_lcp_invalid(r, RB_ENOMEM, &r->info.msg);
+        cli_note(r->file, "%s found no solution (%s); the proof found this one from its last z",
+                 r->solver, rb_status_text(before));
+    }
+    return cli_lcp_say_proof(r, proved, cli_lcp_end(o, r, ended));
+}
+
 cli_exit cli_lcp_solve(lcp_run *run, lcp_result *r)
 {
     const lcp_options *o = run->o;
@@ -236,14 +263,12 @@ cli_exit cli_lcp_solve(lcp_run *run, lcp_result *r)
         r->seconds = rb_seconds() - start;
         if (s >= 0) {
             r->solver = r->info.solver;
-            r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
-            r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
-            if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
-                s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+            const rb_status measured = find_residuals(r);
+            s = measured == RB_OK ? s : measured;
         }
-        code = s < 0 ? cli_lcp_invalid(r, s, &r->info.msg) : cli_lcp_end(o, r, s);
-        if (o->prove && s >= 0)
-            code = cli_lcp_say_proof(r, rb_lcp_prove_or_exclude(&r->boxed, r->z, &r->proof), code);
+        code = s < 0      ? cli_lcp_invalid(r, s, &r->info.msg)
+               : o->prove ? end_with_proof(o, r, s)
+                          : cli_lcp_end(o, r, s);
     }
     rb_io_lcp_free(&p);
     return code;
