@@ -366,6 +366,8 @@ typedef struct rb_rolling_history {
     int *substeps;           /* in how many steps the row was computed */
     double *step_work;       /* work that friction dissipates in the row [force] */
     double *friction_work;   /* the same so far */
+    double *halved_work;     /* by how much step_work differs from that in half as many steps, of a
+                                row at rest that was computed in both; else 0 */
     double *max_temperature; /* at the end of the step; NULL if the case has no heat
                                 conduction */
     double *time;            /* at the end of the step [s]; NULL if no body is viscoelastic */

@@ -199,3 +199,13 @@ def test_columns_are_blamed_by_their_option():
         rollbem.solve(**plane, layers={"a": [1, 2], "b": [2, 3], "c": [3, 4]})
     with pytest.raises(rollbem.InvalidInput, match="^gap=, row 3: expected an x larger"):
         rollbem.solve(support="halfplane", load=5, gap=[[-1, 1], [0, 0], [0, 0.5], [1, 1]])
+
+
+def test_accuracy_names_the_mesh_it_ended_with():
+    found = rollbem.solve(support="halfplane", half_width=1.0, formulation="steady", creep_ratio=0.4, accuracy=1e-2)
+    assert found.accuracy_elements >= 24 and len(found.x) >= found.accuracy_elements
+    assert np.isnan(found.accuracy_boundary)  # no wheel
+    assert found.errors["max_pressure"] <= 1e-2 * found.max_pressure
+    wheel = rollbem.solve(support="hub", half_width=1.0, formulation="steady", creep_ratio=0.4, accuracy=3e-2)
+    assert wheel.accuracy_elements >= 12 and wheel.accuracy_boundary >= 1.0
+    assert np.isnan(rollbem.solve(support="halfplane", half_width=1.0).accuracy_elements)

@@ -27,6 +27,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
         free(beside[k]);
     }
     free(h->cycle_errors);
+    free(h->halved_work);
     rb_rolling_columns_free(&rb_rolling_history_columns, h);
     memset(h, 0, sizeof *h);
 }
@@ -304,9 +305,11 @@ static rb_status prepare_history(history_state *r, double zone, rb_message *why)
     s = rb_rolling_particles_create(&r->particles, why);
     if (s == RB_OK)
         s = rb_rolling_steady_create(model->mesh.n, &r->particles.memory, &r->steady);
-    return s == RB_OK ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->varies,
-                                                 r->rows, h)
-                      : s;
+    if (s == RB_OK)
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->varies, r->rows, h);
+    if (s == RB_OK && !(h->halved_work = calloc((size_t)r->rows, sizeof *h->halved_work)))
+        s = RB_ENOMEM;
+    return s;
 }
 
 /* The case and its program. */

@@ -191,14 +191,18 @@ rb_status rb_rolling_row_compute_at_rest(history_state *r, rb_message *why)
     int steps = 1;
     while (s == RB_OK && steps < ROW_STEPS &&
            (change > tolerated(r->model) || may_jump(r, steps, fall))) {
+        const int row = r->history->n - 1;
+        const double work = r->history->step_work[row];
         steps *= 2;
         s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);
         if (s == RB_OK)
             s = checkpoint_restore(&start, r, why);
         if (s == RB_OK)
             s = rb_rolling_row_compute(r, steps, why);
-        if (s == RB_OK)
+        if (s == RB_OK) {
             change = change_of_tractions(r->model, &coarser);
+            r->history->halved_work[row] = fabs(r->history->step_work[row] - work);
+        }
         for (int k = LOOKED_BACK - 1; k > 0; k--)
             fall[k] = fall[k - 1];
         fall[0] = r->fall.of_P;

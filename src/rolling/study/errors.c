@@ -524,7 +524,7 @@ double rb_rolling_contact_error_with(const double coarser[], double own, double 
 
 /* At least twice the spread over all meshes, with that of another one, NAN where it does not have
  * the value: three that see an edge in the same phase agree by chance, as far as they all err. */
-static double error_of_phases(const double coarser[], double own, double another)
+double rb_rolling_contact_error_of_phases(const double coarser[], double own, double another)
 {
     const double most = fmax(fmax(own, another), fmax(coarser[0], coarser[1]));
     const double least = fmin(fmin(own, another), fmin(coarser[0], coarser[1]));
@@ -595,7 +595,7 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
                                       : 0.0;
             *number_at(&contact, t, k, &scale) =
                 (patches > 1 ? rb_rolling_contact_error_with(coarser, *value, other, other_is > 1.0)
-                             : error_of_phases(coarser, *value, other)) +
+                             : rb_rolling_contact_error_of_phases(coarser, *value, other)) +
                 least_error(rc, &own->solution, t > 0, scale) + unseen;
             *number_at(&boundary, t, k, &scale) = rb_rolling_boundary_error(runs, coarser, *value);
         }

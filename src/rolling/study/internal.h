@@ -8,6 +8,11 @@
 
 /* The largest number of rb_rolling_error_runs. */
 enum { RB_ERROR_RUNS = 3 };
+/* Elements of a mesh between the coarser ones and that of a history or of wear, as a part: edges
+ * pass elements, and three meshes agree by chance. */
+#define RB_ERROR_ANOTHER 0.85
+/* The meshes of a history and of wear: the coarser runs, at most so many, and that one. */
+enum { RB_ERROR_ANOTHER_RUN = RB_ERROR_RUNS, RB_ERROR_MESHES };
 /* The case of the k-th coarser run. */
 rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
 /* RB_EINVAL where the case has too few elements to be halved. */
@@ -18,7 +23,15 @@ double rb_rolling_contact_error(const double coarser[], double own);
 /* The same with the value of another mesh, NAN where there is none. */
 double rb_rolling_contact_error_with(const double coarser[], double own, double another,
                                      int is_finer);
+/* At least twice the spread over all meshes, four times where they go to and fro. */
+double rb_rolling_contact_error_of_phases(const double coarser[], double own, double another);
 double rb_rolling_boundary_error(int runs, const double coarser[], double own);
+
+/* The bars of all columns: of what the coarser runs found, another one between them and the series
+ * itself (NULL: there is none), and of the series itself, over the same points. */
+void rb_rolling_error_columns(const rb_rolling_results *columns, int rows, int runs,
+                              const void *const run[], const void *another, const void *own,
+                              void *errors);
 
 /* Power that slip at an edge dissipates over one element, the part `share` of a contact
  * of half-width a under the load P, and that a mesh may not see: the pressure is like a

@@ -1,8 +1,10 @@
 /* Error bars of curves and histories: every entry of a column has one, as a scalar of a
  * solution has (theory-solvers.md 5.1). */
 #include "rolling/case/derived.h"
+#include "rolling/case/internal.h"
 #include "rolling/results/columns.h"
 #include "rolling/solve/law.h"
+#include "rolling/solve/patches.h"
 #include "rolling/solve/resolution.h"
 #include "rolling/solve/zone.h"
 #include "rolling/study/internal.h"
@@ -14,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of what the coarser runs found and of the series itself, over the same points. */
-static void error_columns(const rb_rolling_results *columns, int rows, int runs,
-                          const void *const run[], const void *own, void *errors)
+void rb_rolling_error_columns(const rb_rolling_results *columns, int rows, int runs,
+                              const void *const run[], const void *another, const void *own,
+                              void *errors)
 {
     double coarser[RB_ERROR_RUNS];
 
@@ -33,7 +35,9 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
         for (int i = 0; i < rows; i++) {
             for (int r = 0; r < runs; r++)
                 coarser[r] = rb_rolling_column(column, run[r])[i];
-            e[i] = rb_rolling_contact_error(coarser, value[i]) +
+            e[i] = (another ? rb_rolling_contact_error_of_phases(
+                                  coarser, value[i], rb_rolling_column(column, another)[i])
+                            : rb_rolling_contact_error(coarser, value[i])) +
                    rb_rolling_boundary_error(runs, coarser, value[i]) + DBL_EPSILON * largest;
         }
     }
@@ -73,7 +77,8 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
             rb_rolling_contact_error(free_creepage, curve->free_creepage) +
             rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
             DBL_EPSILON * rb_rolling_largest_mu(rc) * rb_rolling_derive(rc).strain;
-        error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
+        rb_rolling_error_columns(&rb_rolling_curve_columns, curve->n, runs, found, NULL, curve,
+                                 errors);
         double pressure, mu = 0.0; /* of tables that are finer than the elements */
         s = rb_rolling_missed_by_elements(rc, &pressure, &mu);
         for (int i = 0; i < curve->n; i++) {
@@ -156,8 +161,66 @@ static rb_status widen_errors(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
-/* placed: what the coarser runs found, at the steps of the run itself. */
+/* What a column of a history is off by on every mesh: the tolerance of the solver, in units of what
+ * it is made of, which a value that vanishes by symmetry does not show; and of an edge, which equal
+ * elements show to a part of one, as of a solution. */
+static double error_on_every_mesh(const rb_rolling_case *rc, const rb_rolling_history *own,
+                                  rb_rolling_error_scale scale, double element)
+{
+    const double a = own->half_width,
+                 strain = rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc)
+                                                    : rb_rolling_derive(rc).strain,
+                 mu = rb_rolling_largest_mu(rc);
+    double rounding = rc->contact.tol, P = 0.0, p0 = 0.0;
+
+    for (int i = 0; i < own->n; i++) {
+        rounding = fmax(rounding, own->residual[i]);
+        P = fmax(P, own->normal_load[i]);
+        p0 = fmax(p0, own->max_pressure[i]);
+    }
+    switch (scale) {
+    case RB_SCALE_LOAD:
+        return rounding * P;
+    case RB_SCALE_FRICTION:
+        return rounding * mu * P;
+    case RB_SCALE_SHIFT:
+        return rounding * mu * strain * a;
+    case RB_SCALE_CREEPAGE:
+        return rounding * mu * strain;
+    case RB_SCALE_WIDTH:
+        return rounding * a + (rc->mesh == RB_MESH_UNIFORM ? 0.1 * element : 0.0);
+    case RB_SCALE_PRESSURE:
+        return rounding * p0;
+    case RB_SCALE_MOMENT:
+        return rounding * P * a;
+    case RB_SCALE_TORQUE:
+        return rounding * P * (a + mu * rb_rolling_larger_radius(rc));
+    default:
+        return 0.0;
+    }
+}
+
+/* The part of mu P that a stick zone in row i, which rolls and of which no element sticks, keeps
+ * from being friction: the square of the part of the contact that sticks, as Carter's, which may be
+ * an element.  0: the row sticks, or A slides faster than stick allows, mu a/R and what pressure
+ * strains unlike surfaces apart. */
+static double hidden_stick(const rb_rolling_case *rc, const rb_rolling_history *own, int i)
+{
+    const double a = 0.5 * (own->contact_to[i] - own->contact_from[i]),
+                 strain = rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc)
+                                                    : rb_rolling_derive(rc).strain,
+                 reach = rb_rolling_largest_mu(rc) + fabs(rb_rolling_derive(rc).dundurs);
+
+    if (own->stick[i] > 0 || own->slipping[i] == 0 || rb_rolling_force_is_given(rc) ||
+        !(fabs(own->creepage[i]) <= 1.2 * reach * strain))
+        return 0.0;
+    return 1.0 / ((double)own->slipping[i] * own->slipping[i]);
+}
+
+/* placed: what the coarser runs found, at the steps of the run itself; another: likewise of one
+ * between them, NULL where it was not solved; element: the longest one in contact. */
 static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_history placed[],
+                                const rb_rolling_history *another, double element,
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
     const int runs = rb_rolling_error_runs(rc);
@@ -170,7 +233,15 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
     errors->n = own->n;
     for (int k = 0; k < runs; k++)
         run[k] = &placed[k];
-    error_columns(columns, own->n, runs, run, own, errors);
+    rb_rolling_error_columns(columns, own->n, runs, run, another, own, errors);
+    for (int k = 0; k < columns->n; k++) {
+        const rb_rolling_result *r = &columns->row[k];
+        if (!r->error_bar || !rb_rolling_has_column(r, errors))
+            continue;
+        const double least = error_on_every_mesh(rc, own, r->error_bar, element);
+        for (int i = 0; i < own->n; i++)
+            rb_rolling_column(r, errors)[i] += least;
+    }
     double pressure, mu; /* of tables that are finer than the elements */
     s = rb_rolling_missed_by_elements(rc, &pressure, &mu);
     for (int i = 0; i < own->n && s == RB_OK; i++) {
@@ -179,6 +250,11 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
         if (mu > 0.0)
             errors->force_ratio[i] += mu / rb_rolling_largest_mu(rc);
     }
+    /* Work of rows at rest in finite steps, whose error is of first order: twice what half as many
+     * steps change. */
+    double of_steps = 0.0;
+    for (int i = 0; i < own->n; i++)
+        errors->friction_work[i] += of_steps += 2.0 * own->halved_work[i];
     /* Slip over less than an element of each step, and what its work comes to. */
     double work = 0.0;
     for (int i = 0; i < own->n && s == RB_OK; i++) {
@@ -190,8 +266,16 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
         const double slip = rests ? (own->shift[i] - before) / a : own->creepage[i];
         const double power = rb_rolling_edge_power(rc, own->normal_load[i], slip, a, 1.0 / contact);
         const double rolled = i > 0 ? own->distance[i] - own->distance[i - 1] : own->distance[i];
-        if (!rests)
+        if (!rests) {
+            const double share = hidden_stick(rc, own, i),
+                         friction = share * rb_rolling_largest_mu(rc) * own->normal_load[i];
             errors->dissipation[i] += power;
+            errors->tangential_load[i] += friction;
+            errors->force_ratio[i] += share;
+            errors->torque_a[i] += friction * rb_rolling_larger_radius(rc);
+            if (errors->torque_b)
+                errors->torque_b[i] += friction * rb_rolling_larger_radius(rc);
+        }
         work += power * (rests ? a : rolled * own->half_width);
         errors->friction_work[i] += work;
     }
@@ -281,24 +365,6 @@ static rb_status cycle_errors(const rb_rolling_case *rc, const rb_rolling_soluti
     return s;
 }
 
-/* The cycle on a mesh between the coarser ones and that of the case. */
-static rb_status run_another(const rb_rolling_case *rc, const rb_rolling_program *program,
-                             const rb_rolling_observer *observer, rb_rolling_solution *cycle,
-                             rb_message *why)
-{
-    rb_rolling_case other = *rc;
-    rb_rolling_model model = {0};
-    rb_rolling_history history = {0};
-
-    other.contact_elements = (int)(0.85 * rc->contact_elements);
-    rb_status s = rb_rolling_history_run(&other, program, observer, &model, &history, why);
-    if (s == RB_OK)
-        s = cycle_of(&model, cycle, why);
-    rb_rolling_model_free(&model);
-    rb_rolling_history_free(&history);
-    return s;
-}
-
 int rb_rolling_errors_of_cycle(const rb_rolling_history *h, rb_rolling_errors *errors)
 {
     *errors = rb_rolling_no_row(RB_OK).errors;
@@ -307,44 +373,47 @@ int rb_rolling_errors_of_cycle(const rb_rolling_history *h, rb_rolling_errors *e
     return h->cycle_errors != NULL;
 }
 
-/* Coarser runs of the same way, at its steps. */
-static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
-                             const rb_rolling_observer *observer, const rb_rolling_history *own,
-                             rb_rolling_history placed[], rb_rolling_solution cycle[],
-                             rb_message *why)
+/* Another run of the same way: what of it has error bars, at the steps of `own`, and its cycle. */
+static rb_status run_again(const rb_rolling_case *rc, const rb_rolling_program *program,
+                           const rb_rolling_observer *observer, const rb_rolling_history *own,
+                           rb_rolling_history *placed, rb_rolling_solution *cycle, rb_message *why)
 {
-    rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
-    const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
-    const int runs = rb_rolling_error_runs(rc);
-    rb_status s = RB_OK;
+    rb_rolling_model model = {0};
+    rb_rolling_history history = {0};
+    rb_status s = rb_rolling_history_run(rc, program, observer, &model, &history, why);
 
-    for (int k = 0; k < runs && s == RB_OK; k++) {
-        rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-        /* rows of several steps stay, their steps are longer on a coarser mesh */
-        if (rc->steps > 0 && own->substeps[own->n - 1] > 1)
-            coarser.steps = rc->steps;
-        rb_rolling_model model = {0};
-        rb_rolling_history history = {0};
-        s = rb_rolling_history_run(&coarser, program, &through, &model, &history, why);
-        if (s == RB_OK) {
-            /* What of the history has error bars, at the steps of another one. */
-            rb_rolling_history *out = &placed[k];
-            const rb_rolling_results *columns = &rb_rolling_history_columns;
-            s = rb_rolling_columns_alloc(columns, rc, 0, own->n, out);
-
-            for (int i = 0; i < columns->n && s == RB_OK; i++) {
-                const rb_rolling_result *r = &columns->row[i];
-                if (r->error_bar && rb_rolling_has_column(r, &history))
-                    place_column(&history, rb_rolling_column(r, &history), r->is_mean, own,
-                                 rb_rolling_column(r, out));
-            }
+    if (s == RB_OK) {
+        const rb_rolling_results *columns = &rb_rolling_history_columns;
+        s = rb_rolling_columns_alloc(columns, rc, 0, own->n, placed);
+        for (int i = 0; i < columns->n && s == RB_OK; i++) {
+            const rb_rolling_result *r = &columns->row[i];
+            if (r->error_bar && rb_rolling_has_column(r, &history))
+                place_column(&history, rb_rolling_column(r, &history), r->is_mean, own,
+                             rb_rolling_column(r, placed));
         }
-        if (s == RB_OK && rc->fretting)
-            s = cycle_of(&model, &cycle[k], why);
-        rb_rolling_model_free(&model);
-        rb_rolling_history_free(&history);
     }
+    if (s == RB_OK && rc->fretting)
+        s = cycle_of(&model, cycle, why);
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&history);
     return s;
+}
+
+/* The case on one of the meshes whose spread is the bar. */
+static rb_rolling_case mesh_case(const rb_rolling_case *rc, const rb_rolling_history *own, int k)
+{
+    rb_rolling_case other = *rc;
+
+    if (k < RB_ERROR_ANOTHER_RUN)
+        other = rb_rolling_error_run(rc, k);
+    else {
+        other.contact_elements = (int)(RB_ERROR_ANOTHER * rc->contact_elements);
+        other.steps = (int)ceil(RB_ERROR_ANOTHER * rc->steps);
+    }
+    /* rows of several steps stay, their steps are longer on a coarser mesh */
+    if (rc->steps > 0 && own->substeps[own->n - 1] > 1)
+        other.steps = rc->steps;
+    return other;
 }
 
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
@@ -353,10 +422,11 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_rolling_model *model, rb_rolling_history *history,
                                          rb_message *why)
 {
-    rb_rolling_history placed[RB_ERROR_RUNS] = {0};
-    rb_rolling_solution cycle[RB_ERROR_RUNS] = {{0}}, another = {0};
+    rb_rolling_history placed[RB_ERROR_MESHES] = {0};
+    rb_rolling_solution cycle[RB_ERROR_MESHES] = {{0}};
     rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
     const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
+    const int runs = rb_rolling_error_runs(rc);
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(model, 0, sizeof *model);
@@ -367,111 +437,29 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                       "twice the contact elements");
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, observer, model, history, why);
-    if (s == RB_OK)
-        s = run_coarser(rc, program, observer, history, placed, cycle, why);
+    for (int k = 0; k < runs && s == RB_OK; k++) {
+        const rb_rolling_case coarser = mesh_case(rc, history, k);
+        s = run_again(&coarser, program, &through, history, &placed[k], &cycle[k], why);
+    }
+    int has_another = 0;
+    if (s == RB_OK) {
+        const rb_rolling_case other = mesh_case(rc, history, RB_ERROR_ANOTHER_RUN);
+        const rb_status found =
+            run_again(&other, program, &through, history, &placed[RB_ERROR_ANOTHER_RUN],
+                      &cycle[RB_ERROR_ANOTHER_RUN], why);
+        has_another = found == RB_OK;
+        s = found < 0 || found == RB_INTERRUPTED || rc->fretting ? found : RB_OK;
+    }
     if (s == RB_OK && rc->fretting)
-        s = run_another(rc, program, &through, &another, why);
-    if (s == RB_OK && rc->fretting)
-        s = cycle_errors(rc, cycle, &another, model, history, why);
+        s = cycle_errors(rc, cycle, &cycle[RB_ERROR_ANOTHER_RUN], model, history, why);
     if (s == RB_OK)
         s = (history->errors = calloc(1, sizeof *history->errors))
-                ? history_errors(rc, placed, history, history->errors)
+                ? history_errors(rc, placed, has_another ? &placed[RB_ERROR_ANOTHER_RUN] : NULL,
+                                 rb_rolling_longest_element(model->state.n, model->state.zone,
+                                                            model->bodies.f.h),
+                                 history, history->errors)
                 : RB_ENOMEM;
-    for (int k = 0; k < RB_ERROR_RUNS; k++)
+    for (int k = 0; k < RB_ERROR_MESHES; k++)
         rb_rolling_history_free(&placed[k]);
-    return s;
-}
-
-/* ---- Wear -------------------------------------------------------------------------- */
-
-/* The error of the steps, from a run with others: what it deviates by at its own entries, linear
- * over the way. */
-static rb_status add_step_errors(const rb_rolling_wear_history *own,
-                                 const rb_rolling_wear_history *other,
-                                 rb_rolling_wear_history *errors)
-{
-    const rb_rolling_results *columns = &rb_rolling_wear_columns;
-    double *off = rb_alloc((size_t)other->n, 1);
-
-    if (!off)
-        return RB_ENOMEM;
-    for (int k = 0; k < columns->n; k++) {
-        const rb_rolling_result *c = &columns->row[k];
-        if (!c->error_bar || !rb_rolling_has_column(c, own))
-            continue;
-        const rb_rolling_table mine = {own->n, own->way, rb_rolling_column(c, own)},
-                               deviation = {other->n, other->way, off};
-        const double *theirs = rb_rolling_column(c, other);
-        double *e = rb_rolling_column(c, errors);
-        for (int j = 0; j < other->n; j++)
-            off[j] = fabs(theirs[j] - rb_rolling_table_at(&mine, other->way[j]));
-        for (int i = 0; i < own->n; i++)
-            e[i] += rb_rolling_table_at(&deviation, own->way[i]);
-    }
-    free(off);
-    return RB_OK;
-}
-
-static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_history run[],
-                             int runs, const rb_rolling_wear_history *other,
-                             rb_rolling_wear_history *own)
-{
-    const void *found[RB_ERROR_RUNS];
-    rb_rolling_wear_history *errors = own->errors = calloc(1, sizeof *errors);
-    rb_status s = errors ? rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, own->n, errors)
-                         : RB_ENOMEM;
-
-    if (s != RB_OK)
-        return s;
-    /* Columns that the run itself has not. */
-    double **const absent[][2] = {{&errors->worn_b, &own->worn_b},
-                                  {&errors->max_depth_b, &own->max_depth_b},
-                                  {&errors->radius_b, &own->radius_b},
-                                  {&errors->stroke, &own->stroke}};
-    for (size_t k = 0; k < sizeof absent / sizeof *absent; k++)
-        if (!*absent[k][1]) {
-            free(*absent[k][0]);
-            *absent[k][0] = NULL;
-        }
-    errors->n = own->n;
-    errors->slides = own->slides;
-    errors->rolls = own->rolls;
-    memcpy(errors->way, own->way, (size_t)own->n * sizeof *own->way);
-    for (int k = 0; k < runs; k++)
-        found[k] = &run[k];
-    error_columns(&rb_rolling_wear_columns, own->n, runs, found, own, errors);
-    s = add_step_errors(own, other, errors);
-    for (int i = 0; i < own->n && own->stick_edge; i++)
-        errors->max_pressure[i] = NAN;
-    return s;
-}
-
-rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                                      const rb_rolling_wear_observer *observer,
-                                      rb_rolling_wear_history *history, rb_rolling_solution *last,
-                                      rb_message *why)
-{
-    rb_rolling_wear_history run[RB_ERROR_RUNS + 1] = {{0}};
-    const int runs = rb_rolling_error_runs(rc);
-    rb_status s = rb_rolling_error_check(rc, why);
-
-    memset(history, 0, sizeof *history);
-    memset(last, 0, sizeof *last);
-    if (s == RB_OK)
-        s = rb_rolling_wear_run(rc, wear, observer, history, last, why);
-    for (int k = 0; k <= runs && s == RB_OK; k++) {
-        rb_rolling_wear other = *wear;
-        rb_rolling_solution end = {0};
-        /* the last run has other steps: half as many, or two for one */
-        const rb_rolling_case coarser = k < runs ? rb_rolling_error_run(rc, k) : *rc;
-        if (k == runs)
-            other.steps = wear->steps > 1 ? wear->steps / 2 : 2;
-        s = rb_rolling_wear_run(&coarser, &other, NULL, &run[k], &end, why);
-        rb_rolling_solution_free(&end);
-    }
-    if (s == RB_OK)
-        s = wear_errors(rc, run, runs, &run[runs], history);
-    for (int k = 0; k <= runs; k++)
-        rb_rolling_wear_history_free(&run[k]);
     return s;
 }

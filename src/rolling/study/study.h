@@ -137,8 +137,9 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);
 
-/* Computes a history with history->errors (their residual has no meaning).  The coarser
- * runs also have longer steps, so that the errors include those of the step length.
+/* Computes a history with history->errors (their residual has no meaning), from n/2, 0.7 n and
+ * 0.85 n elements.  The coarser runs also have longer steps, so that the errors include those of
+ * the step length.
  * After the main run the observer is called for the coarser runs with model and history
  * NULL.  Free model and history in any case. */
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
@@ -154,8 +155,8 @@ int rb_rolling_errors_of_cycle(const rb_rolling_history *history, rb_rolling_err
 /* Of its bonds. */
 void rb_rolling_errors_free(rb_rolling_errors *errors);
 
-/* As rb_rolling_wear_run, with error bars in history->errors: from n/2, 0.7 n and n elements, the
- * boundary outside, and half as many steps.  That of a pressure with a stick edge is NAN.  The
+/* As rb_rolling_wear_run, with error bars in history->errors: from n/2, 0.7 n, 0.85 n and n
+ * elements, the boundary outside, half as many steps, and half as many increments of fretting.  That of a pressure with a stick edge is NAN.  The
  * observer sees the run itself. */
 rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                                       const rb_rolling_wear_observer *observer,
