@@ -130,7 +130,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := tests/page $(B)/tests/test_net tests/python $(B)/tests/test_slopes tests/site $(patsubst %,$(B)/tests/test_%,cli_examples check cli certificates course recorded rolling_laws rolling_turn faults cli_rolling) tests/journeys/terminal tests/journeys/contributor $(patsubst %,$(B)/tests/test_%,smooth cli_crack commands inside_hierarchical rolling_wheel fem_cli large rolling_results error_bars friction_portfolio sweep) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,crack_growth mistakes fem_examples design)
+LONGEST := tests/page $(B)/tests/test_cli_rolling tests/python $(patsubst %,$(B)/tests/test_%,stress_maxima fit faults check net cli_crack cli sweep rolling_wear) tests/install $(patsubst %,$(B)/tests/test_%,course cli_examples rolling_laws api_stop recorded) tests/site tests/formulas tests/journeys/terminal $(patsubst %,$(B)/tests/test_%,fuzz slopes certificates stack units fclib mistakes random_abilities tilt rolling_turn error_bars stress_b) tests/figures tests/journeys/contributor $(patsubst %,$(B)/tests/test_%,smooth commands inside_hierarchical rolling_wheel fem_cli large rolling_results friction_portfolio) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,crack_growth fem_examples design)
 OTHERS := tests/octave tests/install tests/release tests/figures tests/formulas $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it

@@ -291,6 +291,25 @@ TEST(small_yield_stress_is_a_bound)
     CHECK_REL(s.tangential_load, 2.0 * s.half_width * rc.yield_stress, 1e-3, "Q");
 }
 
+static void count_call(const rb_contact_state *state, void *context)
+{
+    ++*(int *)context;
+}
+
+/* The iterations that are told are those that a trace sees, of the laws too. */
+TEST(iterations_are_counted)
+{
+    rb_rolling_case rc = plastic_example(123000.0);
+    set(&rc, "contact-elements 30 zone 1.2 solver newton");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
+    int calls = 0;
+    model.problem.trace = count_call;
+    model.problem.trace_context = &calls;
+    CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL));
+    assert_int_equal(model.state.iterations, calls);
+    assert_true(calls > 3);
+}
+
 /* ---- Histories --------------------------------------------------------------------- */
 
 typedef struct {
