@@ -89,6 +89,33 @@ TEST(the_way_back)
     }
 }
 
+/* Hertz's load of a table is so large that its contact would reach the end of the table; the load
+ * that is searched for is smaller.  A pressure that no contact inside the table has is refused. */
+TEST(a_table_that_ends_beyond_the_contact)
+{
+#define SKEW                                                                                       \
+    "--support halfplane --gap skew.txt --young 210000 --poisson 0.3 --young-b 50000 "             \
+    "--poisson-b 0.1 --mu 0.4 --contact-elements 60 "
+    static const char *const lines[] = {SKEW "--formulation steady --creep-ratio 0.4",
+                                        SKEW "--formulation static --force-ratio 0.5",
+                                        SKEW "--formulation static --mesh uniform"};
+    FILE *file = NOT_NULL(fopen("skew.txt", "w"));
+    fprintf(file, "x gap\n");
+    for (int i = -60; i <= 60; i++) {
+        const double x = 0.05 * i;
+        fprintf(file, "%.10g %.14g\n", x, x * x / 200.0 + 1e-3 * gsl_pow_3(x));
+    }
+    fclose(file);
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        char line[600];
+        snprintf(line, sizeof line, "%s --max-pressure 295", lines[k]);
+        held_json *root = run_json(line);
+        CHECK_REL(of_summary(root, "max_pressure"), 295.0, 2e-10, "%s", line);
+        snprintf(line, sizeof line, "%s --max-pressure 3000", lines[k]);
+        check_refused(line, 1, "no load was found whose contact stays within the table");
+    }
+}
+
 /* Random cases, and the same with exchanged bodies: the way back, and the same load. */
 static void draw(random_case *c, int k, int exchanged)
 {

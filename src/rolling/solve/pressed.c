@@ -59,13 +59,18 @@ static rb_status pressure_under(const rb_rolling_case *rc, double load, double *
 
 /* Secants in ln P over ln p, kept between loads with too little and too much pressure.  follows: 1:
  * the zone is a multiple of the contact's half-width under each load, and at.zone is set to it; 0:
- * a zone that fills has too much load. */
+ * a zone that fills has too much load; where it may grow, a contact that reaches the end of the
+ * gap's table has. */
 static rb_status search_load(rb_rolling_case *at, double wanted, int follows, double near,
                              double *load, rb_message *why)
 {
-    enum { MOST = 60 };
-    double multiple = NAN, low = NAN, high = NAN, before = NAN, off_before = NAN;
+    enum { MOST = 60, WIDER = 4 }; /* solves; wider zones under one load */
+    /* a rough load needs a rough bracket only */
+    const double narrow = follows ? 0.1 * near : NARROW;
+    double multiple = NAN, served = NAN, low = NAN, high = NAN, before = NAN, off_before = NAN;
     double x = log(*load);
+    int wider = 0, full = 0; /* whether high is a load with a contact that does not fit */
+    rb_message fullness = {0};
 
     for (int k = 0; k < MOST; k++) {
         double pressure, widest;
@@ -74,12 +79,15 @@ static rb_status search_load(rb_rolling_case *at, double wanted, int follows, do
         if (follows)
             at->zone = isnan(multiple) ? 0.0 : multiple * width;
         const rb_status s = pressure_under(at, *load, &pressure, &widest, why);
-        if (s == RB_ZONE && follows && !isnan(multiple)) {
+        if (s == RB_ZONE && follows && !isnan(multiple) && wider++ < WIDER) {
             multiple *= 1.3; /* the contact has grown faster */
             continue;
         }
-        if (s == RB_ZONE && at->zone > 0.0 && !(high - low <= NARROW) &&
-            !(isnan(low) && k == MOST / 2)) {
+        if (s == RB_ZONE && !(high - low <= narrow) && !(isnan(low) && k >= MOST / 2)) {
+            multiple = served;
+            wider = 0;
+            full = 1;
+            fullness = *why;
             high = x;
             x = isnan(low) ? x - M_LN2 : 0.5 * (low + high);
             continue;
@@ -95,9 +103,15 @@ static rb_status search_load(rb_rolling_case *at, double wanted, int follows, do
             multiple = widest / width;
             continue; /* the same load again, in this zone */
         }
+        served = multiple;
+        wider = 0;
         const double off = log(pressure / wanted);
-        if (fabs(off) <= near || (high - low) <= NARROW)
+        if (fabs(off) <= near || (high - low <= narrow && !(full && off < 0.0)))
             return RB_OK;
+        if (high - low <= narrow) /* every contact that fits has too little pressure */
+            return rb_fail(why, RB_ZONE, "%s", fullness.text);
+        if (off >= 0.0)
+            full = 0;
         *(off < 0.0 ? &low : &high) = x;
         /* the slope of ln P over ln p is 2 under Hertz's pressure */
         const double slope =
@@ -132,6 +146,10 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
     double load = start;
     if (s == RB_OK)
         s = search_load(&at, wanted, 0, NEAR, &load, why);
+    if (s == RB_ZONE && rc->gap == RB_GAP_TABLE && rc->zone == 0.0) /* the zone is the search's */
+        return rb_fail(why, s,
+                       "max-pressure: no load was found whose contact stays within the "
+                       "table of the gap");
     if (s == RB_OK && rc->gap == RB_GAP_TABLE) {
         rb_rolling_case finer = at;
         double pressure;
