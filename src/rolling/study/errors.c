@@ -688,6 +688,7 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
  * pressure which the contact elements have. */
 typedef struct {
     int elements;
+    double outer; /* how much finer than usual the boundary is */
     double contact, boundary, pressure;
 } estimate;
 
@@ -728,7 +729,12 @@ static int refined_elements(double accuracy, const estimate *first, const estima
     const double for_contact = fmax(0.5 * accuracy, accuracy - now->boundary);
     const double for_boundary = fmax(0.5 * accuracy, accuracy - now->contact);
     const double n_factor = fmax(1.0, pow(now->contact / for_contact, 1.0 / order));
-    const double outer_factor = fmax(1.0, sqrt(now->boundary / for_boundary));
+    /* the second order, or that at which the boundary's part has fallen so far: thin rims are of
+     * the first */
+    const double grown = outer / first->outer,
+                 fallen = log(first->boundary / now->boundary) / log(grown),
+                 boundary_order = grown > 1.1 ? fmin(fmax(fallen, 1.0), 2.0) : 2.0;
+    const double outer_factor = fmax(1.0, pow(now->boundary / for_boundary, 1.0 / boundary_order));
 
     if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary ||
         !pressure_could_come(first, now, for_contact, most))
@@ -791,7 +797,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         stood = fabs(worst - before) < 0.05 * worst ? stood + 1 : 0;
         if (worst <= accuracy)
             return RB_OK;
-        now = (estimate){*elements, worst_relative(rc, solution, &parts.contact.scalar, &of_part),
+        now = (estimate){*elements, fmax(refined.outer_refinement, 1.0),
+                         worst_relative(rc, solution, &parts.contact.scalar, &of_part),
                          worst_relative(rc, solution, &parts.boundary.scalar, &of_part),
                          parts.contact.scalar.max_pressure / solution->max_pressure};
         first = round == 1 ? now : first;
