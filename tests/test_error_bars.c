@@ -502,7 +502,8 @@ static int study_of_all_options(int cases, int from)
 /* ---- The part of it that is quick -------------------------------------------------- */
 
 /* Every class of half-planes and some of wheels, all together: too few cases to
- * judge a class by. */
+ * judge a class by.  Transients have a fourth mesh, without which one bar in fifty was too small
+ * and the median a tenth less. */
 TEST(bars_hold)
 {
     const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
@@ -514,7 +515,7 @@ TEST(bars_hold)
               of_all.main.all);
     CHECK_MAX(0.95, (double)of_all.others.held / of_all.others.all, "held %d of %d",
               of_all.others.held, of_all.others.all);
-    CHECK_MAX(median(&of_all.main), 12.0, "median bar/error");
+    CHECK_MAX(median(&of_all.main), 14.0, "median bar/error");
     CHECK_MAX(of_all.main.unsolved, 2, "unsolved");
 }
 
