@@ -156,8 +156,8 @@ int rb_rolling_errors_of_cycle(const rb_rolling_history *history, rb_rolling_err
 void rb_rolling_errors_free(rb_rolling_errors *errors);
 
 /* As rb_rolling_wear_run, with error bars in history->errors: from n/2, 0.7 n, 0.85 n and n
- * elements, the boundary outside, half as many steps, and half as many increments of fretting.  That of a pressure with a stick edge is NAN.  The
- * observer sees the run itself. */
+ * elements, the boundary outside, half as many steps, and half as many increments of fretting. That
+ * of a pressure with a stick edge is NAN.  The observer sees the run itself. */
 rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                                       const rb_rolling_wear_observer *observer,
                                       rb_rolling_wear_history *history, rb_rolling_solution *last,
