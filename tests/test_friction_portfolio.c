@@ -268,7 +268,9 @@ TEST(lemke_ends_in_time)
     CHECK_STATUS(rb_friction_solve("lemke", &p, &opt,
                                    &(rb_friction_solution){r, r + 2 * p.contacts, NULL}, &info),
                  RB_INTERRUPTED);
-    CHECK_MAX(info.seconds, 0.1, "a pivot takes no longer");
+    /* of 919 pivots, in pivots and not in seconds, which other programs take as well */
+    CHECK_MAX(1, info.iters, "pivots are counted");
+    CHECK_MAX(info.iters, 100, "pivots in a millisecond");
 }
 
 /* r, u and v of the portfolio, whoever of its members found them. */
