@@ -27,7 +27,8 @@ static const double finest_boundary = 32.0;
  * runs that make both coarser together. */
 static const struct {
     double contact, boundary;
-} part[RB_ERROR_RUNS] = {{0.5, 1.0}, {0.7, 1.0}, {1.0, 0.5}};
+} part[RB_ERROR_MESHES] = {
+    {0.5, 1.0}, {0.7, 1.0}, {1.0, 0.5}, [RB_ERROR_ANOTHER_RUN] = {0.85, 1.0}};
 
 int rb_rolling_error_runs(const rb_rolling_case *rc)
 {
@@ -93,16 +94,43 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own)
     return runs > 2 ? 2.0 * fabs(own - coarser[2]) : 0.0;
 }
 
-/* a/R, the scale of strains under a contact of half-width a. */
-static double strain_of(const rb_rolling_case *rc, double a)
+double rb_rolling_error_strain(const rb_rolling_case *rc, double a)
 {
     return rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc) : rb_rolling_derive(rc).strain;
+}
+
+double rb_rolling_error_unit(const rb_rolling_case *rc, rb_rolling_error_scale scale, double P,
+                             double p0, double a)
+{
+    const double mu = rb_rolling_largest_mu(rc), strain = mu * rb_rolling_error_strain(rc, a);
+
+    switch (scale) {
+    case RB_SCALE_LOAD:
+        return P;
+    case RB_SCALE_FRICTION:
+        return mu * P;
+    case RB_SCALE_SHIFT:
+        return strain * a;
+    case RB_SCALE_CREEPAGE:
+        return strain;
+    case RB_SCALE_WIDTH:
+        return a;
+    case RB_SCALE_PRESSURE:
+        return p0;
+    case RB_SCALE_MOMENT:
+        return P * a;
+    case RB_SCALE_TORQUE:
+        return P * (a + mu * rb_rolling_larger_radius(rc));
+    default:
+        return 0.0;
+    }
 }
 
 double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
                              double share)
 {
-    const double slip = fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * strain_of(rc, a);
+    const double slip =
+        fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * rb_rolling_error_strain(rc, a);
 
     return rb_rolling_largest_mu(rc) * P * slip * pow(share, 1.5);
 }
@@ -307,7 +335,8 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     const hidden_stick hidden = find_hidden_stick(rc, s);
     const double rounding = fmax(s->residual, rc->contact.tol);
     const double a = isnan(s->hertz_half_width) ? s->half_width : s->hertz_half_width;
-    const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
+    const double tolerance =
+        rounding * rb_rolling_error_unit(rc, scale, s->normal_load, s->max_pressure, a);
     const unresolved_stick unresolved = find_unresolved_stick(rc, s);
     double missed, missed_mu; /* of tables that are finer than the elements */
     if (rb_rolling_missed_by_elements(rc, &missed, &missed_mu) != RB_OK)
@@ -326,21 +355,22 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rounding +
                (friction > 0.0 ? friction / (rb_rolling_largest_mu(rc) * s->normal_load) : 0.0);
     case RB_SCALE_LOAD:
-        return rounding * s->normal_load;
+    case RB_SCALE_MOMENT:
+        return tolerance;
     case RB_SCALE_FRICTION:
-        return rounding * rb_rolling_largest_mu(rc) * s->normal_load + friction;
+        return tolerance + friction;
     case RB_SCALE_APPROACH:
         return rounding * fabs(s->approach);
     case RB_SCALE_SHIFT:
-        return rounding * fmax(strain * a, fabs(s->tangential_shift));
+        return fmax(tolerance, rounding * fabs(s->tangential_shift));
     case RB_SCALE_CREEPAGE:
-        return rounding * fmax(strain, fabs(s->creepage));
+        return fmax(tolerance, rounding * fabs(s->creepage));
     case RB_SCALE_WIDTH:
         /* found within an element where bodies relax and where the pressure is no power there,
          * which is one of the shortest of fitted elements; equal ones show it to .02 to .15 of one,
          * as it lies in one; friction between unlike bodies may lift an edge of a punch less than
          * its first element is long */
-        return rounding * a +
+        return tolerance +
                (rb_rolling_relaxes(rc) || (s->edges_bounded && !fitted) ? 0.5
                 : rc->mesh == RB_MESH_UNIFORM                           ? 0.1
                                                                         : 0.0) *
@@ -352,7 +382,7 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_PRESSURE:
         if (rb_rolling_presses_with_end(rc, s))
             return NAN; /* infinite */
-        return rounding * s->max_pressure +
+        return tolerance +
                (of_stress ? unresolved.rise
                           : fmax(0.0, fmax(unresolved.risen, pressure_at_limits_of_stick(rc, s)) -
                                           s->max_pressure)) +
@@ -366,16 +396,12 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                                      rb_rolling_longest_element(s->n, s->zone, s->h) /
                                          (2.0 * s->half_width));
     }
-    case RB_SCALE_MOMENT:
-        return rounding * s->normal_load * a;
     case RB_SCALE_TORQUE:
-        return rounding * s->normal_load *
-                   (a + rb_rolling_largest_mu(rc) * rb_rolling_larger_radius(rc)) +
-               friction * rb_rolling_larger_radius(rc);
+        return tolerance + friction * rb_rolling_larger_radius(rc);
     case RB_SCALE_STRAIN:
-        return rounding * strain_of(rc, a);
+        return rounding * rb_rolling_error_strain(rc, a);
     case RB_SCALE_WORK:
-        return rounding * s->normal_load * strain_of(rc, a);
+        return rounding * s->normal_load * rb_rolling_error_strain(rc, a);
     case RB_SCALE_HEAT:
         return rounding *
                fabs(s->max_temperature - fmin(rc->heat_a.temperature, rc->heat_b.temperature));
@@ -664,7 +690,8 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
                              const rb_rolling_solution *e, const char **of)
 {
     const int slides = rb_rolling_largest_mu(rc) > 0.0;
-    const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
+    const double strain =
+        rb_rolling_largest_mu(rc) * rb_rolling_error_strain(rc, s->hertz_half_width);
     const struct {
         const char *name;
         double error;

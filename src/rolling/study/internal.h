@@ -6,14 +6,10 @@
 
 /* ---- errors.c ---------------------------------------------------------------------- */
 
-/* The largest number of rb_rolling_error_runs. */
-enum { RB_ERROR_RUNS = 3 };
-/* Elements of a mesh between the coarser ones and that of a history or of wear, as a part: edges
- * pass elements, and three meshes agree by chance. */
-#define RB_ERROR_ANOTHER 0.85
-/* The meshes of a history and of wear: the coarser runs, at most so many, and that one. */
-enum { RB_ERROR_ANOTHER_RUN = RB_ERROR_RUNS, RB_ERROR_MESHES };
-/* The case of the k-th coarser run. */
+/* The largest number of rb_rolling_error_runs.  Histories and wear have a mesh more, between these
+ * and their own: edges pass elements, and three meshes agree by chance. */
+enum { RB_ERROR_RUNS = 3, RB_ERROR_ANOTHER_RUN = RB_ERROR_RUNS, RB_ERROR_MESHES };
+/* The case of the k-th coarser run, or of that one. */
 rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
 /* RB_EINVAL where the case has too few elements to be halved. */
 rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
@@ -33,6 +29,12 @@ void rb_rolling_error_columns(const rb_rolling_results *columns, int rows, int r
                               const void *const run[], const void *another, const void *own,
                               void *errors);
 
+/* a/R, the scale of strains under a contact of half-width a. */
+double rb_rolling_error_strain(const rb_rolling_case *rc, double a);
+/* What a result of this scale is made of, under the load P and the pressure p0: the tolerance of
+ * the solver is a part of it.  0 where the scale is none of a load, a length or a slip. */
+double rb_rolling_error_unit(const rb_rolling_case *rc, rb_rolling_error_scale scale, double P,
+                             double p0, double a);
 /* Power that slip at an edge dissipates over one element, the part `share` of a contact
  * of half-width a under the load P, and that a mesh may not see: the pressure is like a
  * square root there, and the slip that of the creepage and of dissimilar bodies. */

@@ -161,62 +161,6 @@ static rb_status widen_errors(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
-/* What a column of a history is off by on every mesh: the tolerance of the solver, in units of what
- * it is made of, which a value that vanishes by symmetry does not show; and of an edge, which equal
- * elements show to a part of one, as of a solution. */
-static double error_on_every_mesh(const rb_rolling_case *rc, const rb_rolling_history *own,
-                                  rb_rolling_error_scale scale, double element)
-{
-    const double a = own->half_width,
-                 strain = rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc)
-                                                    : rb_rolling_derive(rc).strain,
-                 mu = rb_rolling_largest_mu(rc);
-    double rounding = rc->contact.tol, P = 0.0, p0 = 0.0;
-
-    for (int i = 0; i < own->n; i++) {
-        rounding = fmax(rounding, own->residual[i]);
-        P = fmax(P, own->normal_load[i]);
-        p0 = fmax(p0, own->max_pressure[i]);
-    }
-    switch (scale) {
-    case RB_SCALE_LOAD:
-        return rounding * P;
-    case RB_SCALE_FRICTION:
-        return rounding * mu * P;
-    case RB_SCALE_SHIFT:
-        return rounding * mu * strain * a;
-    case RB_SCALE_CREEPAGE:
-        return rounding * mu * strain;
-    case RB_SCALE_WIDTH:
-        return rounding * a + (rc->mesh == RB_MESH_UNIFORM ? 0.1 * element : 0.0);
-    case RB_SCALE_PRESSURE:
-        return rounding * p0;
-    case RB_SCALE_MOMENT:
-        return rounding * P * a;
-    case RB_SCALE_TORQUE:
-        return rounding * P * (a + mu * rb_rolling_larger_radius(rc));
-    default:
-        return 0.0;
-    }
-}
-
-/* The part of mu P that a stick zone in row i, which rolls and of which no element sticks, keeps
- * from being friction: the square of the part of the contact that sticks, as Carter's, which may be
- * an element.  0: the row sticks, or A slides faster than stick allows, mu a/R and what pressure
- * strains unlike surfaces apart. */
-static double hidden_stick(const rb_rolling_case *rc, const rb_rolling_history *own, int i)
-{
-    const double a = 0.5 * (own->contact_to[i] - own->contact_from[i]),
-                 strain = rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc)
-                                                    : rb_rolling_derive(rc).strain,
-                 reach = rb_rolling_largest_mu(rc) + fabs(rb_rolling_derive(rc).dundurs);
-
-    if (own->stick[i] > 0 || own->slipping[i] == 0 || rb_rolling_force_is_given(rc) ||
-        !(fabs(own->creepage[i]) <= 1.2 * reach * strain))
-        return 0.0;
-    return 1.0 / ((double)own->slipping[i] * own->slipping[i]);
-}
-
 /* placed: what the coarser runs found, at the steps of the run itself; another: likewise of one
  * between them, NULL where it was not solved; element: the longest one in contact. */
 static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_history placed[],
@@ -234,11 +178,22 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
     for (int k = 0; k < runs; k++)
         run[k] = &placed[k];
     rb_rolling_error_columns(columns, own->n, runs, run, another, own, errors);
+    /* What each mesh is off by: the tolerance of the solver, which a value that vanishes by
+     * symmetry does not show, and of an edge, which equal elements show to a part of one. */
+    double rounding = rc->contact.tol, P = 0.0, p0 = 0.0;
+    for (int i = 0; i < own->n; i++) {
+        rounding = fmax(rounding, own->residual[i]);
+        P = fmax(P, own->normal_load[i]);
+        p0 = fmax(p0, own->max_pressure[i]);
+    }
     for (int k = 0; k < columns->n; k++) {
         const rb_rolling_result *r = &columns->row[k];
         if (!r->error_bar || !rb_rolling_has_column(r, errors))
             continue;
-        const double least = error_on_every_mesh(rc, own, r->error_bar, element);
+        const int is_edge = r->error_bar == RB_SCALE_WIDTH && rc->mesh == RB_MESH_UNIFORM;
+        const double least =
+            rounding * rb_rolling_error_unit(rc, r->error_bar, P, p0, own->half_width) +
+            (is_edge ? 0.1 * element : 0.0);
         for (int i = 0; i < own->n; i++)
             rb_rolling_column(r, errors)[i] += least;
     }
@@ -266,10 +221,18 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
         const double slip = rests ? (own->shift[i] - before) / a : own->creepage[i];
         const double power = rb_rolling_edge_power(rc, own->normal_load[i], slip, a, 1.0 / contact);
         const double rolled = i > 0 ? own->distance[i] - own->distance[i - 1] : own->distance[i];
-        if (!rests) {
-            const double share = hidden_stick(rc, own, i),
-                         friction = share * rb_rolling_largest_mu(rc) * own->normal_load[i];
+        if (!rests)
             errors->dissipation[i] += power;
+        /* All elements slip, though A does not slide faster than stick allows, which is mu a/R and
+         * what pressure strains unlike surfaces apart: one of them may hide stick, and Q falls
+         * short of mu P by the square of its part of the contact, as Carter's. */
+        const double most_slip = 1.2 *
+                                 (rb_rolling_largest_mu(rc) + fabs(rb_rolling_derive(rc).dundurs)) *
+                                 rb_rolling_error_strain(rc, a);
+        if (!rests && own->stick[i] == 0 && !rb_rolling_force_is_given(rc) &&
+            fabs(own->creepage[i]) <= most_slip) {
+            const double share = 1.0 / ((double)contact * contact),
+                         friction = share * rb_rolling_largest_mu(rc) * own->normal_load[i];
             errors->tangential_load[i] += friction;
             errors->force_ratio[i] += share;
             errors->torque_a[i] += friction * rb_rolling_larger_radius(rc);
@@ -402,14 +365,8 @@ static rb_status run_again(const rb_rolling_case *rc, const rb_rolling_program *
 /* The case on one of the meshes whose spread is the bar. */
 static rb_rolling_case mesh_case(const rb_rolling_case *rc, const rb_rolling_history *own, int k)
 {
-    rb_rolling_case other = *rc;
+    rb_rolling_case other = rb_rolling_error_run(rc, k);
 
-    if (k < RB_ERROR_ANOTHER_RUN)
-        other = rb_rolling_error_run(rc, k);
-    else {
-        other.contact_elements = (int)(RB_ERROR_ANOTHER * rc->contact_elements);
-        other.steps = (int)ceil(RB_ERROR_ANOTHER * rc->steps);
-    }
     /* rows of several steps stay, their steps are longer on a coarser mesh */
     if (rc->steps > 0 && own->substeps[own->n - 1] > 1)
         other.steps = rc->steps;

@@ -112,10 +112,8 @@ rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rollin
         if (is_left_out)
             continue;
         rb_rolling_wear other = *wear;
-        rb_rolling_case mesh = k < runs ? rb_rolling_error_run(rc, k) : *rc;
+        const rb_rolling_case mesh = k < RB_ERROR_MESHES ? rb_rolling_error_run(rc, k) : *rc;
         rb_rolling_solution end = {0};
-        if (k == RB_ERROR_ANOTHER_RUN)
-            mesh.contact_elements = (int)(RB_ERROR_ANOTHER * rc->contact_elements);
         if (k == OTHER_STEPS) /* half as many, or two for one */
             other.steps = wear->steps > 1 ? wear->steps / 2 : 2;
         if (k == OTHER_INCREMENTS)
