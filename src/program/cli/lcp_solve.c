@@ -206,21 +206,6 @@ static rb_status find_residuals(lcp_result *r)
                : rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
 }
 
-/* The status and what is proved agree.  found: of the solver. */
-static cli_exit end_with_proof(const lcp_options *o, lcp_result *r, rb_status found)
-{
-    rb_status ended = judged(o, r, found);
-    const rb_status before = ended,
-                    proved = rb_lcp_prove_answer(&r->boxed, r->z, &ended, &r->proof, &r->info.msg);
-    if (before != RB_OK && ended == RB_OK) {
-        if (find_residuals(r) != RB_OK)
-            return cli_lcp_invalid(r, RB_ENOMEM, &r->info.msg);
-        cli_note(r->file, "%s found no solution (%s); the proof found this one from its last z",
-                 r->solver, rb_status_text(before));
-    }
-    return cli_lcp_say_proof(r, proved, cli_lcp_end(o, r, ended));
-}
-
 cli_exit cli_lcp_solve(lcp_run *run, lcp_result *r)
 {
     const lcp_options *o = run->o;
@@ -259,6 +244,7 @@ cli_exit cli_lcp_solve(lcp_run *run, lcp_result *r)
     if (code == CLI_CONTINUE) {
         const rb_lcp_options opt = cli_lcp_solver_options(run, r);
         const double start = rb_seconds();
+        rb_status proved = RB_OK;
         s = rb_lcp_solve(run->solver, &r->boxed, &opt, r->z, &r->info);
         r->seconds = rb_seconds() - start;
         if (s >= 0) {
@@ -266,9 +252,20 @@ cli_exit cli_lcp_solve(lcp_run *run, lcp_result *r)
             const rb_status measured = find_residuals(r);
             s = measured == RB_OK ? s : measured;
         }
-        code = s < 0      ? cli_lcp_invalid(r, s, &r->info.msg)
-               : o->prove ? end_with_proof(o, r, s)
-                          : cli_lcp_end(o, r, s);
+        if (s >= 0 && o->prove) {
+            /* The status says what is proved. */
+            const rb_status found = s = judged(o, r, s);
+            proved = rb_lcp_prove_answer(&r->boxed, r->z, &s, &r->proof, &r->info.msg);
+            if (found != RB_OK && s == RB_OK) {
+                s = find_residuals(r);
+                cli_note(r->file,
+                         "%s found no solution (%s); the proof found this one from its last z",
+                         r->solver, rb_status_text(found));
+            }
+        }
+        code = s < 0 ? cli_lcp_invalid(r, s, &r->info.msg) : cli_lcp_end(o, r, s);
+        if (s >= 0 && o->prove)
+            code = cli_lcp_say_proof(r, proved, code);
     }
     rb_io_lcp_free(&p);
     return code;

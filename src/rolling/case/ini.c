@@ -66,17 +66,6 @@ static const char *section_of(const ini_state *st, const rb_option_set *set, int
     return set->options[i].name;
 }
 
-/* "; the sections are ...", those of the case itself, which come first. */
-static void list_sections(const ini_state *st, char *text, size_t size)
-{
-    const char *before = "; the sections are ";
-    for (int j = 0; j < st->sets->n; j++)
-        if (st->sets->options[j].kind == RB_OPTION_GROUP) {
-            rb_append(text, size, "%s%s", before, st->sets->options[j].name);
-            before = ", ";
-        }
-}
-
 static rb_status set_key(const ini_state *st, const char *section, const char *name,
                          const char *value)
 {
@@ -93,8 +82,11 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
     if (!known) {
         const char *similar = rb_guess_text(&near, "");
         char sections[300] = "";
-        if (!*similar)
-            list_sections(st, sections, sizeof sections);
+        /* else all of those of the case itself, which come first */
+        for (int j = 0; j < st->sets->n && !*similar; j++)
+            if (st->sets->options[j].kind == RB_OPTION_GROUP)
+                rb_append(sections, sizeof sections, "%s%s",
+                          *sections ? ", " : "; the sections are ", st->sets->options[j].name);
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown section '%s'%s%s", st->path, st->line,
                        section, similar, sections);
     }
@@ -134,15 +126,13 @@ static int handle_key(void *context, const char *section, const char *name, cons
 static rb_status read_text(rb_case *c, const char *path, const char *text, int n,
                            const rb_option_set *also, rb_message *why)
 {
+    if (text[strspn(text, " \t\r\n")] == '{')
+        return rb_fail(why, RB_EFORMAT, "%s: expected a case file of lines 'key = value', got JSON",
+                       path);
     rb_option_set *sets = calloc((size_t)n + 1, sizeof *sets);
     ini_state st = {.c = c, .n = n + 1, .sets = sets, .path = path, .why = why};
     if (!sets)
         return rb_fail(why, RB_ENOMEM, "out of memory");
-    if (text[strspn(text, " \t\r\n")] == '{') {
-        free(sets);
-        return rb_fail(why, RB_EFORMAT, "%s: expected a case file of lines 'key = value', got JSON",
-                       path);
-    }
     sets[0] = rb_case_options(c);
     if (n > 0)
         memcpy(sets + 1, also, sizeof *sets * (size_t)n);

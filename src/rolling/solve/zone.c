@@ -270,49 +270,6 @@ static rb_status go_on_by_far_field(rb_rolling_model *model, rb_message *why)
                : RB_OK;
 }
 
-/* Few elements tell as well how wide the potential contact of many should be.  Returns the width
- * that was found with as many elements as the model has, 0 with fewer: what is tighter than that
- * has been tried then. */
-static double search_with_few(const rb_rolling_model *model, interval *zone)
-{
-    rb_rolling_plan few = model->plan;
-    rb_rolling_case equal = *model->rc;
-    rb_rolling_model first;
-    double tried = 0.0;
-
-    few.elements = few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ? FEW : few.elements;
-    rb_rolling_coarsen_boundary(&few);
-    equal.mesh = RB_MESH_UNIFORM;
-    if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
-        rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
-        /* the zone, not the edges: between edges it would not grow like Hertz's half-width (D6) */
-        *zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
-        tried = few.elements == model->plan.elements ? width(*zone) : 0.0;
-    }
-    rb_rolling_model_free(&first);
-    return tried;
-}
-
-/* The contact that a solution has found. */
-static interval found_contact(const rb_rolling_model *model)
-{
-    interval edge;
-
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
-    if (isnan(rb_rolling_derive(model->rc).load)) {
-        /* those of elements, which move with the first zone alone and not with the
-         * pressure: derivatives know how (theory-solvers.md D6) */
-        int left, right;
-        separated_at_ends(&model->state, &left, &right);
-        edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};
-    }
-    if (is_symmetric(model->rc)) {
-        edge.to = fmax(fabs(edge.from), fabs(edge.to));
-        edge.from = -edge.to;
-    }
-    return edge;
-}
-
 /* Grows the potential contact until enough separated elements stand at each end, or no
  * material is left; tightens it when the contact turns out to fill less than two thirds
  * of it; and takes more elements where they are too long for separate patches, unless a
@@ -330,9 +287,23 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
     /* Begin with the potential contact of the last search, or with that of Hertz's width. */
     if (coarse || !(width(before) > 0.0)) {
         zone = first_zone(model->rc);
-        if (elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ||
-            rb_rolling_has_fine_boundary(&model->plan))
-            too_narrow = search_with_few(model, &zone);
+        rb_rolling_plan few = model->plan;
+        if (few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM || rb_rolling_has_fine_boundary(&few)) {
+            /* Few elements tell as well how wide the potential contact of many should be. */
+            rb_rolling_case equal = *model->rc;
+            rb_rolling_model first;
+            few.elements = few.elements >= RB_ROLLING_SEARCH_WITH_FEW_FROM ? FEW : few.elements;
+            rb_rolling_coarsen_boundary(&few);
+            equal.mesh = RB_MESH_UNIFORM;
+            if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
+                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
+                /* the zone, not the edges: between edges it would not grow like Hertz's
+                 * half-width (D6); as many elements have tried what is tighter */
+                zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+                too_narrow = few.elements == elements ? width(zone) : 0.0;
+            }
+            rb_rolling_model_free(&first);
+        }
     }
     for (int round = 0;; round++) {
         rb_rolling_mesh mesh;
@@ -365,9 +336,24 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         }
         if (is_open(model))
             break;
+        /* The contact that was found. */
+        interval edge;
+
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
+        if (isnan(rb_rolling_derive(model->rc).load)) {
+            /* those of elements, which move with the first zone alone and not with the
+             * pressure: derivatives know how (theory-solvers.md D6) */
+            int left, right;
+            separated_at_ends(&model->state, &left, &right);
+            edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};
+        }
+        if (is_symmetric(model->rc)) {
+            edge.to = fmax(fabs(edge.from), fabs(edge.to));
+            edge.from = -edge.to;
+        }
         /* Too wide: the contact fills less than two thirds of it, and it is not known that what is
          * tighter is too narrow.  Too coarse: patches need shorter elements. */
-        const interval wanted = within(scaled(found_contact(model), AROUND), extent(model->rc));
+        const interval wanted = within(scaled(edge, AROUND), extent(model->rc));
         const int more = coarse ? elements : elements_for(model, zone);
         const int keeps_zone =
             width(zone) < NEARLY * width(wanted) || width(wanted) <= 1.05 * too_narrow;
