@@ -146,8 +146,8 @@ export function compare(given, tol, files = {}) {
     return got;
 }
 
-/* A fitted mesh is fitted until the edges move less than a bound: its ends carry that. */
-/* Where edges are fitted, by what iterations leave. */
+/* By how much results on fitted elements may differ: these are fitted until the edges move less than
+ * a bound, and depend on where the search began. */
 export const FITTED = 1e-6;
 export const rail = {
     support: "halfplane",

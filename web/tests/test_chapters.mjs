@@ -1,6 +1,6 @@
 import { check, check_close, run, test } from "./suite.mjs";
 
-export async function test_chapters({ page, number, settled, text_of }) {
+export async function test_chapters({ page, number, settled, text_of, mouse }) {
     await test("the chapters answer what they ask", async () => {
         await page.run("rollbem.open('press')");
         await settled();
@@ -107,21 +107,13 @@ export async function test_chapters({ page, number, settled, text_of }) {
             const box = await page.run(
                 `(() => { const h = document.querySelector('#at-crack [data-handle=${name}]'); h.scrollIntoView({ block: 'center', behavior: 'instant' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()`,
             );
-            const mouse = (type, k) =>
-                page.tab("Input.dispatchMouseEvent", {
-                    type,
-                    x: box[0] + k * dx,
-                    y: box[1] + k * dy,
-                    button: "left",
-                    buttons: type === "mouseReleased" ? 0 : 1,
-                    clickCount: 1,
-                });
-            await mouse("mousePressed", 0);
-            for (const k of [0.3, 0.6, 1]) await mouse("mouseMoved", k);
+            const held = (type, k) => mouse(type, box[0] + k * dx, box[1] + k * dy);
+            await held("mousePressed", 0);
+            for (const k of [0.3, 0.6, 1]) await held("mouseMoved", k);
             await page.until("rollbem.solver.idle()");
             await page.run("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))");
             const on_the_way = await crack_state();
-            await mouse("mouseReleased", 1);
+            await held("mouseReleased", 1);
             await settled();
             return on_the_way;
         };

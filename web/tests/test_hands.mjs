@@ -1,6 +1,6 @@
 import { check, check_close, test } from "./suite.mjs";
 
-export async function test_hands({ page, number, settled, text_of }) {
+export async function test_hands({ page, number, settled, text_of, mouse }) {
     /* Of each end of a slider, held by a hand so that axes stay: where the lines of its figure are. */
     const lines_of = (view) =>
         page.run(`(() => {
@@ -233,18 +233,10 @@ export async function test_hands({ page, number, settled, text_of }) {
         const box = await page.run(
             "(() => { const h = document.querySelector('[data-handle=bench]'); h.scrollIntoView({ block: 'center' }); const b = h.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()",
         );
-        const mouse = (type, dx) =>
-            page.tab("Input.dispatchMouseEvent", {
-                type,
-                x: box[0] + dx,
-                y: box[1],
-                button: "left",
-                buttons: type === "mouseReleased" ? 0 : 1,
-                clickCount: 1,
-            });
-        await mouse("mousePressed", 0);
-        for (const dx of [3, 10, 30, 60]) await mouse("mouseMoved", dx);
-        await mouse("mouseReleased", 60);
+        const drag = (type, dx) => mouse(type, box[0] + dx, box[1]);
+        await drag("mousePressed", 0);
+        for (const dx of [3, 10, 30, 60]) await drag("mouseMoved", dx);
+        await drag("mouseReleased", 60);
         await settled();
         check(
             (await page.run("'creep-ratio' in rollbem.page.given")) && (await number("creep_ratio")) > 0.55,

@@ -18,7 +18,7 @@ function axe_source() {
     return existsSync(source) ? readFileSync(source, "utf8") : null;
 }
 
-export async function test_windows({ page, number, settled }) {
+export async function test_windows({ page, number, settled, mouse }) {
     for (const [link, line] of [
         ["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"],
         ["#nothing=1", "unknown option"],
@@ -195,23 +195,15 @@ export async function test_windows({ page, number, settled }) {
         const box = await page.run(
             "(() => { const b = document.querySelector('.hand.border').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()",
         );
-        const mouse = (type, dx) =>
-            page.tab("Input.dispatchMouseEvent", {
-                type,
-                x: box[0] + dx,
-                y: box[1],
-                button: "left",
-                buttons: type === "mouseReleased" ? 0 : 1,
-                clickCount: 1,
-            });
-        await mouse("mousePressed", 0);
+        const drag = (type, dx) => mouse(type, box[0] + dx, box[1]);
+        await drag("mousePressed", 0);
         await page.run("rollbem.views.hero.forget_frames()");
         for (let k = 0; k < 60; k++) {
-            await mouse("mouseMoved", 120 * Math.sin(k / 6));
+            await drag("mouseMoved", 120 * Math.sin(k / 6));
             await new Promise((resolve) => setTimeout(resolve, 12));
         }
         const frames = (await page.run("rollbem.views.hero.frames()")).sort((a, b) => a - b);
-        await mouse("mouseReleased", 0);
+        await drag("mouseReleased", 0);
         await settled();
         check(frames.length > 10, `${frames.length} frames`);
         console.log(

@@ -47,5 +47,15 @@ export function visit(page) {
         await page.until(IDLE);
     };
     const text_of = (selector) => page.run(`document.querySelector(${JSON.stringify(selector)})?.textContent ?? ""`);
-    return { page, number, settled, same_as_the_program, text_of };
+    /* One event of a hand that holds the left button, or lets it go. */
+    const mouse = (type, x, y) =>
+        page.tab("Input.dispatchMouseEvent", {
+            type,
+            x,
+            y,
+            button: "left",
+            buttons: type === "mouseReleased" ? 0 : 1,
+            clickCount: 1,
+        });
+    return { page, number, settled, same_as_the_program, text_of, mouse };
 }
