@@ -268,7 +268,7 @@ TEST(lemke_ends_in_time)
     CHECK_STATUS(rb_friction_solve("lemke", &p, &opt,
                                    &(rb_friction_solution){r, r + 2 * p.contacts, NULL}, &info),
                  RB_INTERRUPTED);
-    /* of 919 pivots, in pivots and not in seconds, which other programs take as well */
+    /* The whole solution takes 919 pivots; seconds would also count what other programs take. */
     CHECK_MAX(1, info.iters, "pivots are counted");
     CHECK_MAX(info.iters, 100, "pivots in a millisecond");
 }

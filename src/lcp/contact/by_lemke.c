@@ -81,9 +81,9 @@ rb_status rb_contact_by_lemke(rb_contact_problem *problem, const rb_contact_opti
         s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
         double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
         const int uneven = s == RB_OK && order_of_attempts[k].cover == UNEVEN;
-        /* Multiples of the golden section modulo 1 lie unevenly, each far from the others. */
         if (uneven) /* NULL: ones */
             cover = rb_alloc((size_t)lcp.size, 1);
+        /* Multiples of the golden section modulo 1 are all different, and far from each other. */
         for (int i = 0; i < lcp.size && cover; i++)
             cover[i] = (lcp.b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
         if (s == RB_OK && (!z || (uneven && !cover)))

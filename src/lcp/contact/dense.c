@@ -46,8 +46,7 @@ static void add_product(int n, const double *A, int lda, const double *x, double
                     lda, x + from, 1, 1.0, y, 1);
 }
 
-/* gap += F_NN p + F_NT q (K1), slip += S_N p + S_T q (K2); without coupling half of the products.
- */
+/* gap += F_NN p + F_NT q (K1), slip += S_N p + S_T q (K2); half of it without coupling. */
 static void dense_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
                       double *slip)
 {

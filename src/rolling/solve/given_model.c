@@ -8,9 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Resultants, largest traction and half-width; integrals of tractions linear between nodes,
- * exactly.
- */
+/* Resultants, largest traction and half-width.  The integrals are exact, since the tractions are
+ * linear between nodes. */
 static void set_totals(const rb_bem_edge_load *load, rb_rolling_solution *s)
 {
     double most_p = 0.0, most_q = 0.0;
