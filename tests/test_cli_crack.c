@@ -382,15 +382,11 @@ TEST(coupled)
                                     "--crack-mouth 9 --from -9 --to -8 --steps 4");
     CHECK_REL(in_summary(far, "max_pressure") * sqrt(M_PI), scale_of(far), 3e-3, "far away");
     /* steady contacts of so many elements are solved without a matrix */
-    double largest[2] = {1.0, 1.0};
-    for (int k = 0; k < 2 && is_in_turn(0, 4); k++) {
-        held_json *one =
-            run_json(k ? HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
-                               "--formulation steady"
-                       : HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled");
-        largest[k] = in_summary(one, "K_II_max");
+    if (is_in_turn(0, 4)) {
+#define MANY HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
+        held_json *rest = run_json(MANY), *steady = run_json(MANY "--formulation steady");
+        CHECK_REL(in_summary(steady, "K_II_max"), in_summary(rest, "K_II_max"), 1e-9, "K_II max");
     }
-    CHECK_REL(largest[1], largest[0], 1e-9, "K_II max");
     check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64, "rigid");
     check_refused(HERTZ "--mu 0.1 --coupled", 64, "--mu 0");
     check_refused(HERTZ "--mu 0 --coupled --fluid trapped", 64, "without fluid");

@@ -1,7 +1,7 @@
 /* The basis of Lemke's method on sparse matrices: LU and product form of the inverse.
- * Of w = q + M z + d t the basic variables are some w, some z (their set is F) and mostly t.  In the
- * rows R whose w is not basic, w = 0, stand equations for z_F and t alone, [M_RF d_R] x = -g_R; the
- * other w follow by products.  So the LU has the order of the z that are not zero. */
+ * Of w = q + M z + d t the basic variables are some w, some z (their set is F) and mostly t.  In
+ * the rows R whose w is not basic, w = 0, stand equations for z_F and t alone, [M_RF d_R] x = -g_R;
+ * the other w follow by products.  So the LU has the order of the z that are not zero. */
 #include "lcp/lemke/basis.h"
 
 #include <stdlib.h>
